@@ -1,0 +1,18 @@
+//! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64.
+
+mod aabb;
+mod line;
+mod objects;
+mod polygon;
+mod sphere;
+mod triangle;
+
+pub use aabb::Aabb;
+pub use line::{Line, PADDING, Ray, Span};
+pub use objects::Objects;
+pub use polygon::Polygon;
+pub use sphere::Sphere;
+pub use triangle::Triangle;
+
+/// One of the three coordinate axes: 0 = x, 1 = y, 2 = z.
+pub type Axis = usize;

@@ -1,0 +1,259 @@
+//! What a run leaves behind: the rows of `cells.csv`, `nodes.csv`, `bins.csv` and `timings.csv`, and the summary.
+//!
+//! One flat struct a file, full precision, unknown is `None` (an empty cell, never 0 or NaN). Everything that reads
+//! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] holds times, so every other
+//! file is byte-identical for any number of threads.
+
+use serde::{Deserialize, Serialize};
+
+/// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
+///
+/// Rates are per line. `*_se` is the standard error of the counted rate, from the per-line scores of the first
+/// `pilot_lines` lines and the number of all `lines`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct CellRecord {
+    /// Identity of the cell, computed from all its parameters (seed included).
+    pub cell: String,
+    /// Scene as named on the command line, e.g. `spd:balls:4`.
+    pub scene: String,
+    /// Objects in the scene.
+    pub objects: u64,
+    /// Strategy that placed the planes, e.g. `sah`.
+    pub strategy: String,
+    /// Stop rule, e.g. `objects:2:16`.
+    pub stop: String,
+    /// Seed of the lines.
+    pub seed: u64,
+    /// Lines counted; each hits the scene's box.
+    pub lines: u64,
+    /// First lines, traversed one by one, whose scores give the standard errors.
+    pub pilot_lines: u64,
+    /// Cost of one inner node visit.
+    pub c_k: f64,
+    /// Cost of one leaf visit.
+    pub c_b: f64,
+    /// Cost of one object test.
+    pub c_t: f64,
+    /// Depth of the deepest leaf (root = 0).
+    pub depth: u64,
+    /// Inner nodes of the tree.
+    pub inner_nodes: u64,
+    /// Leaves of the tree, empty ones included.
+    pub leaves: u64,
+    /// Leaves without an object.
+    pub empty_leaves: u64,
+    /// References: entries of objects in leaves.
+    pub references: u64,
+    /// Nodes whose box has no area (p = 0): told, and left out of every fit.
+    pub zero_area_nodes: u64,
+    /// Nodes with an area that no line hit.
+    pub unhit_nodes: u64,
+    /// Inner node visits of all lines together.
+    pub inner_visits: u64,
+    /// Leaf visits of all lines together.
+    pub leaf_visits: u64,
+    /// Object tests of all lines together.
+    pub object_tests: u64,
+    /// Inner nodes a line visits: the area ratio's prediction.
+    pub n_k_predicted: f64,
+    /// Inner nodes a line visits: counted.
+    pub n_k_counted: f64,
+    /// Standard error of `n_k_counted`.
+    pub n_k_se: f64,
+    /// Leaves a line visits: predicted.
+    pub n_b_predicted: f64,
+    /// Leaves a line visits: counted.
+    pub n_b_counted: f64,
+    /// Standard error of `n_b_counted`.
+    pub n_b_se: f64,
+    /// Object tests a line makes: predicted.
+    pub n_t_predicted: f64,
+    /// Object tests a line makes: counted.
+    pub n_t_counted: f64,
+    /// Standard error of `n_t_counted`.
+    pub n_t_se: f64,
+    /// Tree cost C from the predicted counts.
+    pub c_predicted: f64,
+    /// Tree cost C from the counted ones.
+    pub c_counted: f64,
+    /// Standard error of `c_counted`.
+    pub c_se: f64,
+    /// Slope through the origin, weights 1/(p(1-p)) from the predicted p.
+    pub slope: f64,
+    /// Standard error of `slope`, from per-line scores.
+    pub slope_se: f64,
+    /// Slope through the origin, ordinary least squares.
+    pub slope_ols: f64,
+    /// Standard error of `slope_ols`, from per-line scores.
+    pub slope_ols_se: f64,
+    /// Free line y = a + b p (weighted): intercept a.
+    pub free_intercept: f64,
+    /// Standard error of `free_intercept`.
+    pub free_intercept_se: f64,
+    /// Free line y = a + b p (weighted): slope b.
+    pub free_slope: f64,
+    /// Standard error of `free_slope`.
+    pub free_slope_se: f64,
+    /// p-value of a = 0 and b = 1 together (Hotelling, F(2, n - 2)).
+    pub free_p: f64,
+    /// 1 - R^2 of the ordinary line through the origin (R^2 uncentred).
+    pub unexplained: f64,
+    /// What 1 - R^2 is expected to be for a correct program: sum p(1-p) / (N sum p^2).
+    pub unexplained_expected: f64,
+    /// Largest |z| over the nodes.
+    pub max_abs_z: f64,
+    /// Smallest exact two-sided binomial tail over the nodes.
+    pub smallest_tail: f64,
+    /// p-value of slope = 1 (weighted).
+    pub slope_p: f64,
+    /// Nodes times `smallest_tail`, at most 1.
+    pub tail_p: f64,
+    /// p-value of Hotelling's test over the contrasts.
+    pub hotelling_p: f64,
+    /// Independent contrasts in that test.
+    pub contrasts: u64,
+}
+
+/// One node. A row of `nodes.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct NodeRecord {
+    /// Identity of the cell.
+    pub cell: String,
+    /// Scene of the cell.
+    pub scene: String,
+    /// Strategy of the cell.
+    pub strategy: String,
+    /// Node number in its tree (root = 0).
+    pub node: u64,
+    /// Depth (root = 0).
+    pub depth: u64,
+    /// `inner` or `leaf`.
+    pub kind: String,
+    /// Surface area SA(K), in the scene's units squared.
+    pub area: f64,
+    /// Predicted hit probability SA(K)/SA(R).
+    pub p: f64,
+    /// Lines that hit the node.
+    pub hits: u64,
+    /// Lines in all.
+    pub lines: u64,
+    /// (hits/lines - p) / sqrt(p(1-p)/lines); empty where p is 0 or 1.
+    pub z: Option<f64>,
+    /// Exact two-sided binomial tail of `hits`; empty where p is 0 or 1.
+    pub tail: Option<f64>,
+}
+
+/// The nodes of one cell whose p lies in one bin (eighths of a decade). A row of `bins.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct BinRecord {
+    /// Identity of the cell.
+    pub cell: String,
+    /// Scene of the cell.
+    pub scene: String,
+    /// Strategy of the cell.
+    pub strategy: String,
+    /// Lower end of the bin in p.
+    pub p_lo: f64,
+    /// Upper end of the bin in p.
+    pub p_hi: f64,
+    /// Nodes in the bin.
+    pub nodes: u64,
+    /// Sum of p over them: hits a line is predicted to make here.
+    pub p_sum: f64,
+    /// Hits counted on them.
+    pub hits: u64,
+    /// Lines in all.
+    pub lines: u64,
+    /// Mean of z over them.
+    pub z_mean: f64,
+    /// Root mean square of z over them (about 1 for a correct program).
+    pub z_rms: f64,
+    /// Largest |z| over them.
+    pub z_max_abs: f64,
+}
+
+/// Seconds of one cell. A row of `timings.csv`, the only file that is not reproducible.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TimingRecord {
+    /// Identity of the cell.
+    pub cell: String,
+    /// Scene of the cell.
+    pub scene: String,
+    /// Strategy of the cell.
+    pub strategy: String,
+    /// Building the tree, one thread, wall seconds.
+    pub build_s: f64,
+    /// Making and counting all lines, wall seconds.
+    pub count_s: f64,
+    /// Threads that counted.
+    pub threads: u64,
+    /// (line, node) visits counted in `count_s`.
+    pub visits: u64,
+}
+
+/// `summary.json`: the answer of a run, without times.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Summary {
+    /// Version of this layout.
+    pub schema: u32,
+    /// Name of the experiment (its file's stem).
+    pub experiment: String,
+    /// Kind of the experiment, e.g. `hits-vs-area`.
+    pub kind: String,
+    /// The question the experiment asks.
+    pub question: String,
+    /// Seed of the run.
+    pub seed: u64,
+    /// True when fewer lines and smaller scenes were used: no figure of it is to be published.
+    pub quick: bool,
+    /// The scene whose nodes the main figure shows.
+    pub figure_scene: String,
+    /// The strategy whose nodes the main figure shows.
+    pub figure_strategy: String,
+    /// What was expected and whether it held.
+    pub verdicts: Vec<Verdict>,
+    /// Every estimate with its interval.
+    pub estimates: Vec<Estimate>,
+}
+
+/// One expectation, written before the run, and what came of it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Verdict {
+    /// Short name, e.g. `slope-within`.
+    pub name: String,
+    /// Whether it held.
+    pub held: bool,
+    /// One sentence with the figures.
+    pub message: String,
+}
+
+/// One estimate with its interval.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Estimate {
+    /// What is estimated: `slope`, `n_K`, `n_B`, `n_t`, `C`, ...
+    pub name: String,
+    /// Scene.
+    pub scene: String,
+    /// Strategy.
+    pub strategy: String,
+    /// Counted value.
+    pub value: f64,
+    /// Lower end of the 99 % interval.
+    pub lo: f64,
+    /// Upper end of the 99 % interval.
+    pub hi: f64,
+    /// Standard error.
+    pub se: f64,
+    /// Lines behind it.
+    pub n: u64,
+    /// What theory says it should be.
+    pub predicted: f64,
+    /// Lower end of the interval that holds for all cells of the run together (family 1 %).
+    pub lo_all: f64,
+    /// Upper end of the interval that holds for all cells of the run together (family 1 %).
+    pub hi_all: f64,
+}
