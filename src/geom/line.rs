@@ -131,7 +131,7 @@ impl Ray {
 
     /// A point in the ray's own frame: relative to the origin, sheared so that the ray runs along z with z = t.
     #[inline]
-    pub(super) fn to_frame(&self, p: DVec3) -> DVec3 {
+    pub(super) fn sheared(&self, p: DVec3) -> DVec3 {
         let q = p - self.line.origin;
         let [kx, ky, kz] = self.axes;
         DVec3::new(

@@ -75,9 +75,9 @@ impl Polygon {
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
         let (mut negative, mut positive) = (false, false);
         let last = self.corners[self.corners.len() - 1];
-        let mut previous = ray.to_frame(last).truncate();
+        let mut previous = ray.sheared(last).truncate();
         for &corner in &self.corners {
-            let current = ray.to_frame(corner).truncate();
+            let current = ray.sheared(corner).truncate();
             let side = DVec2::perp_dot(previous, current);
             negative |= side < 0.0;
             positive |= side > 0.0;

@@ -27,7 +27,7 @@ impl Triangle {
     /// parallel to the ray could otherwise leave.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
-        let [a, b, c] = self.0.map(|p| ray.to_frame(p));
+        let [a, b, c] = self.0.map(|p| ray.sheared(p));
         let u = c.x * b.y - c.y * b.x;
         let v = a.x * c.y - a.y * c.x;
         let w = b.x * a.y - b.y * a.x;

@@ -1,1 +1,25 @@
-//! (being written)
+//! The kd-tree: strategies that place planes, stop rules, building, traversal with probes, and the area prediction.
+//!
+//! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict`]),
+//! counted ones from the planes alone ([`traverse`], [`stream`]).
+
+pub mod audit;
+pub mod build;
+pub mod count;
+pub mod predict;
+pub mod probe;
+pub mod stop;
+pub mod strategy;
+pub mod stream;
+mod sweep;
+pub mod traverse;
+pub mod tree;
+
+pub use build::{Rules, build};
+pub use count::Counts;
+pub use predict::{Prediction, predict};
+pub use probe::{NoProbe, Probe, Work};
+pub use stop::StopRule;
+pub use strategy::Strategy;
+pub use traverse::{Counting, Hit, Mode, Stack, Tracing, nearest, traverse};
+pub use tree::{Node, NodeKind, Tree};

@@ -1,0 +1,253 @@
+//! Building a tree in O(N log N): the strategy picks planes, the stop rule ends, everything else is equal for all.
+//!
+//! Placement: an object goes left if lo < s, right if hi > s (so a straddler goes both ways); one lying in the plane goes
+//! to the cheaper side, left on a tie. The tree is a deterministic function of the objects' boxes and the rules.
+
+use serde::{Deserialize, Serialize};
+
+use crate::cost::CostModel;
+use crate::geom::{Aabb, Axis};
+
+use super::strategy::Positions;
+use super::sweep::{Event, Split, Sweep, sorted_events};
+use super::{Node, StopRule, Strategy, Tree};
+
+/// All that decides a tree besides the objects.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rules {
+    /// Which plane.
+    pub strategy: Strategy,
+    /// When to stop.
+    pub stop: StopRule,
+    /// What steps cost: read by the cost-driven strategies and by the rule `cost-gain`.
+    pub cost: CostModel,
+}
+
+/// Build a tree over objects given by their boxes, with `world` around them all.
+///
+/// # Panics
+/// If a box is not valid, lies outside `world`, or the tree would need 2^32 nodes or references.
+pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
+    for (i, b) in bounds.iter().enumerate() {
+        assert!(b.is_valid() && world.contains(b), "box {i} is {b:?}, world {world:?}");
+    }
+    let objects = u32::try_from(bounds.len()).expect("more than 2^32 objects");
+    let mut builder = Builder {
+        bounds,
+        rules,
+        depth_bound: rules.stop.depth_bound(bounds.len()),
+        root_area: world.surface_area(),
+        tree: Tree {
+            nodes: vec![Node::leaf(0, 0)],
+            boxes: vec![world],
+            references: Vec::new(),
+            depth: 0,
+            world,
+        },
+        objects: (0..objects).collect(),
+        events: [0, 1, 2].map(|axis| sorted_events(bounds, axis)),
+        sides: vec![0; bounds.len()],
+        centres: Vec::new(),
+    };
+    builder.grow(0, 0, Region::default());
+    builder.tree
+}
+
+/// Where a node's lists begin in the builder's arenas; they end where the arenas do.
+#[derive(Clone, Copy, Default)]
+struct Region {
+    objects: usize,
+    events: [usize; 3],
+}
+
+struct Builder<'a> {
+    bounds: &'a [Aabb],
+    rules: &'a Rules,
+    depth_bound: usize,
+    root_area: f64,
+    tree: Tree,
+    /// Arena of object lists: a stack, the current node's on top.
+    objects: Vec<u32>,
+    /// Arenas of sorted events by axis, likewise.
+    events: [Vec<Event>; 3],
+    /// Sides of the current split an object goes to: bit 0 left, bit 1 right.
+    sides: Vec<u8>,
+    /// Scratch: centres of clipped bounds.
+    centres: Vec<f64>,
+}
+
+const LEFT: u8 = 1;
+const RIGHT: u8 = 2;
+
+impl Builder<'_> {
+    /// Make node `node` and all below it from the lists on top of the arenas.
+    fn grow(&mut self, node: usize, depth: usize, region: Region) {
+        let bounds = self.tree.boxes[node];
+        let Some(split) = self.choose(&bounds, depth, region) else {
+            self.make_leaf(node, depth, region);
+            return;
+        };
+        // Both children side by side, then their subtrees, the left one first.
+        let left = self.tree.nodes.len();
+        let first = u32::try_from(left + 1).expect("more than 2^32 nodes") - 1;
+        self.tree.nodes[node] = Node::inner(split.axis, split.position, first);
+        let (left_box, right_box) = bounds.split(split.axis, split.position);
+        self.tree.nodes.extend([Node::leaf(0, 0); 2]);
+        self.tree.boxes.extend([left_box, right_box]);
+
+        // The right lists replace the node's own, the left ones go on top.
+        let (top, kept) = self.distribute(&split, region);
+        self.grow(left, depth + 1, top);
+        self.objects.truncate(kept.objects);
+        for axis in 0..3 {
+            self.events[axis].truncate(kept.events[axis]);
+        }
+        self.grow(left + 1, depth + 1, region);
+    }
+
+    fn make_leaf(&mut self, node: usize, depth: usize, region: Region) {
+        let objects = &self.objects[region.objects..];
+        let first = self.tree.references.len();
+        assert!(first + objects.len() <= u32::MAX as usize, "more than 2^32 references");
+        self.tree.nodes[node] = Node::leaf(first as u32, objects.len() as u32);
+        self.tree.references.extend_from_slice(objects);
+        self.tree.depth = self.tree.depth.max(depth);
+    }
+
+    /// The plane to cut with, or `None` for a leaf.
+    fn choose(&mut self, bounds: &Aabb, depth: usize, region: Region) -> Option<Split> {
+        let Rules { strategy, stop, cost } = *self.rules;
+        let n = self.objects.len() - region.objects;
+        let share = bounds.surface_area() / self.root_area;
+        if depth >= self.depth_bound || stop.stops_at(n, share) {
+            return None;
+        }
+        let (order, positions) = strategy.parts();
+        let all_compete = order == super::strategy::AxisOrder::All;
+        let mut best: Option<Split> = None;
+        for axis in order.axes(depth, bounds) {
+            let candidate = self.cheapest(bounds, axis, region, positions);
+            if let Some(split) = candidate
+                && best.is_none_or(|b| split.cost < b.cost)
+            {
+                best = Some(split);
+            }
+            if best.is_some() && !all_compete {
+                break;
+            }
+        }
+        let too_dear = |s: &Split| matches!(stop, StopRule::CostGain { .. }) && s.cost >= cost.leaf(n as f64);
+        best.filter(|s| !too_dear(s))
+    }
+
+    /// The strategy's cheapest plane on one axis.
+    fn cheapest(&mut self, bounds: &Aabb, axis: Axis, region: Region, positions: Positions) -> Option<Split> {
+        let spatial = 0.5 * bounds.lo[axis] + 0.5 * bounds.hi[axis];
+        let mut medians = || self.object_median(bounds, axis, region).map(|object| (spatial.min(object), spatial.max(object)));
+        // `window`: object bounds in it are candidates; `extra`: further positions, ascending.
+        let mut window = None;
+        let extra = match positions {
+            Positions::AllBounds => {
+                window = Some((bounds.lo[axis], bounds.hi[axis]));
+                vec![]
+            }
+            Positions::SpatialMedian => vec![spatial],
+            Positions::ObjectMedian => vec![self.object_median(bounds, axis, region)?],
+            Positions::MedianMidpoint => {
+                let (a, b) = medians()?;
+                vec![0.5 * a + 0.5 * b]
+            }
+            Positions::BoundsBetweenMedians => {
+                let (a, b) = medians()?;
+                window = Some((a, b));
+                vec![a, b]
+            }
+            Positions::Samples(count) => {
+                let (a, b) = medians()?;
+                let between = |i: u16| a + (b - a) * (f64::from(i) / f64::from(count + 1));
+                (0..=count).map(between).chain([b]).collect()
+            }
+        };
+        let sweep = Sweep {
+            axis,
+            bounds,
+            events: &self.events[axis][region.events[axis]..],
+            n: self.objects.len() - region.objects,
+            cost: &self.rules.cost,
+            keep_useless: matches!(self.rules.stop, StopRule::Depth(_)),
+        };
+        sweep.cheapest(window, &extra)
+    }
+
+    /// Median of the centres of the objects' bounds clipped to the node; the mean of the middle two of an even number.
+    fn object_median(&mut self, bounds: &Aabb, axis: Axis, region: Region) -> Option<f64> {
+        let (lo, hi) = (bounds.lo[axis], bounds.hi[axis]);
+        let clipped_centre = |&object: &u32| {
+            let b = &self.bounds[object as usize];
+            0.5 * b.lo[axis].max(lo) + 0.5 * b.hi[axis].min(hi)
+        };
+        self.centres.clear();
+        self.centres.extend(self.objects[region.objects..].iter().map(clipped_centre));
+        let n = self.centres.len();
+        if n == 0 {
+            return None;
+        }
+        let (below, &mut upper, _) = self.centres.select_nth_unstable_by(n / 2, f64::total_cmp);
+        if n % 2 == 1 {
+            return Some(upper);
+        }
+        let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        Some(0.5 * lower + 0.5 * upper)
+    }
+
+    /// Sort the node's lists into the children's. Returns where the left child's begin, on top, and where the right
+    /// child's, which take the node's own place, end.
+    fn distribute(&mut self, split: &Split, region: Region) -> (Region, Region) {
+        let Split { axis, position: s, planar_left, .. } = *split;
+        for &object in &self.objects[region.objects..] {
+            let b = &self.bounds[object as usize];
+            let (left, right) = (b.lo[axis] < s, b.hi[axis] > s);
+            self.sides[object as usize] = match (left, right) {
+                (false, false) if planar_left => LEFT,
+                (false, false) => RIGHT,
+                _ => u8::from(left) * LEFT + u8::from(right) * RIGHT,
+            };
+        }
+        let sides = &self.sides;
+        let mut top = Region::default();
+        let mut kept = Region::default();
+        (top.objects, kept.objects) = spread(&mut self.objects, region.objects, |&object| sides[object as usize]);
+        for k in 0..3 {
+            let start = region.events[k];
+            let events = &mut self.events[k];
+            (top.events[k], kept.events[k]) = if k == axis {
+                // An event beyond the plane leaves the child's box: its object now reaches the face.
+                spread(events, start, |e| {
+                    let inside = u8::from(e.position <= s) * LEFT + u8::from(e.position >= s) * RIGHT;
+                    sides[e.object as usize] & inside
+                })
+            } else {
+                spread(events, start, |e| sides[e.object as usize])
+            };
+        }
+        (top, kept)
+    }
+}
+
+/// Split the list on top of an arena (from `start` on): right entries move down into its place, left entries are put on
+/// top; entries may do both. Returns where the left list begins and where the right one ends. Keeps order.
+fn spread<T: Copy>(arena: &mut Vec<T>, start: usize, side: impl Fn(&T) -> u8) -> (usize, usize) {
+    let top = arena.len();
+    let mut end = start;
+    for i in start..top {
+        let entry = arena[i];
+        let side = side(&entry);
+        if side & LEFT != 0 {
+            arena.push(entry);
+        }
+        arena[end] = entry;
+        end += usize::from(side & RIGHT != 0);
+    }
+    (top, end)
+}

@@ -1,0 +1,75 @@
+//! Probes: what a traversal tells whoever is watching. One loop serves counting, scoring, tracing and timing.
+
+/// Receives the events of a traversal, before the work they count. Every event defaults to nothing.
+pub trait Probe {
+    /// An inner node is visited.
+    #[inline(always)]
+    fn inner(&mut self, _node: u32) {}
+    /// A leaf with this many objects is visited, each of which is tested.
+    #[inline(always)]
+    fn leaf(&mut self, _node: u32, _objects: u32) {}
+}
+
+/// Watches nothing: for production and timing.
+pub struct NoProbe;
+
+impl Probe for NoProbe {}
+
+/// Visits and tests of one line, or of many together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Work {
+    /// Inner nodes visited (n_K).
+    pub inner: u64,
+    /// Leaves visited, empty ones too (n_B).
+    pub leaves: u64,
+    /// Objects tested, one in several leaves each time (n_t).
+    pub tests: u64,
+}
+
+impl Probe for Work {
+    #[inline(always)]
+    fn inner(&mut self, _: u32) {
+        self.inner += 1;
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, _: u32, objects: u32) {
+        self.leaves += 1;
+        self.tests += u64::from(objects);
+    }
+}
+
+impl std::ops::AddAssign for Work {
+    fn add_assign(&mut self, other: Self) {
+        self.inner += other.inner;
+        self.leaves += other.leaves;
+        self.tests += other.tests;
+    }
+}
+
+/// Tells both.
+impl<A: Probe, B: Probe> Probe for (A, B) {
+    #[inline(always)]
+    fn inner(&mut self, node: u32) {
+        self.0.inner(node);
+        self.1.inner(node);
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, node: u32, objects: u32) {
+        self.0.leaf(node, objects);
+        self.1.leaf(node, objects);
+    }
+}
+
+impl<P: Probe> Probe for &mut P {
+    #[inline(always)]
+    fn inner(&mut self, node: u32) {
+        (**self).inner(node);
+    }
+
+    #[inline(always)]
+    fn leaf(&mut self, node: u32, objects: u32) {
+        (**self).leaf(node, objects);
+    }
+}

@@ -1,0 +1,158 @@
+//! Stop rules: when a node becomes a leaf. The same for every strategy of a comparison.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+/// When a node becomes a leaf. Every rule but `depth` also ends at an empty node, at a depth bound, and where the
+/// strategy has no candidate plane.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum StopRule {
+    /// `depth:D`: at depth D and nowhere else, empty nodes too. As a full tree is wanted, planes that keep all objects
+    /// on both sides are taken; on a cube, strategy 1 at depth 3k makes a grid of 2^k cells a side.
+    Depth(u32),
+    /// `objects:N[:D]`: at most N objects, or depth D.
+    Objects {
+        /// Most objects in a leaf.
+        limit: u32,
+        /// Depth bound; without one see [`default_depth`].
+        depth: Option<u32>,
+    },
+    /// `cost-k:K[:D]`: expected object tests n SA(K)/SA(R) at most K (MacDonald & Booth's f(b) <= k for all b).
+    CostK {
+        /// Most expected tests a line makes here.
+        k: f64,
+        /// Depth bound; without one see [`default_depth`].
+        depth: Option<u32>,
+    },
+    /// `cost-gain[:D]`: where the chosen plane's cost is no less than the leaf's.
+    CostGain {
+        /// Depth bound; without one see [`default_depth`].
+        depth: Option<u32>,
+    },
+}
+
+/// Depth bound where a rule names none: 8 + 1.3 floor(log2 N), rounded, as in pbrt (3rd edition, 4.4.1).
+pub fn default_depth(objects: usize) -> usize {
+    8 + (13 * objects.max(1).ilog2() as usize + 5) / 10
+}
+
+/// Depth beyond which no tree grows, whatever a rule says: a bound on memory and on the traversal stack.
+pub const MAX_DEPTH: u32 = 128;
+
+impl StopRule {
+    /// The depth at which every node becomes a leaf.
+    pub(super) fn depth_bound(self, objects: usize) -> usize {
+        match self {
+            Self::Depth(depth) => depth as usize,
+            Self::Objects { depth, .. } | Self::CostK { depth, .. } | Self::CostGain { depth } => {
+                depth.map_or_else(|| default_depth(objects), |d| d as usize)
+            }
+        }
+    }
+
+    /// Whether a node of `n` objects is a leaf before any plane is looked at; `share` is SA(K)/SA(R).
+    pub(super) fn stops_at(self, n: usize, share: f64) -> bool {
+        match self {
+            Self::Depth(_) => false,
+            Self::Objects { limit, .. } => n <= limit as usize,
+            Self::CostK { k, .. } => n as f64 * share <= k,
+            Self::CostGain { .. } => n == 0,
+        }
+    }
+}
+
+impl fmt::Display for StopRule {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let depth = match *self {
+            Self::Depth(d) => return write!(f, "depth:{d}"),
+            Self::Objects { limit, depth } => {
+                write!(f, "objects:{limit}")?;
+                depth
+            }
+            Self::CostK { k, depth } => {
+                write!(f, "cost-k:{k}")?;
+                depth
+            }
+            Self::CostGain { depth } => {
+                write!(f, "cost-gain")?;
+                depth
+            }
+        };
+        depth.map_or(Ok(()), |d| write!(f, ":{d}"))
+    }
+}
+
+impl FromStr for StopRule {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let wrong = || {
+            format!(
+                "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D] or cost-gain[:D] \
+                 with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH}, e.g. objects:2:16"
+            )
+        };
+        let mut parts = text.split(':');
+        let rule = parts.next().unwrap_or_default();
+        let depth_of = |part: &str| match part.parse::<u32>() {
+            Ok(d) if d <= MAX_DEPTH => Ok(d),
+            _ => Err(wrong()),
+        };
+        let parameter = if rule == "cost-gain" { None } else { Some(parts.next().ok_or_else(wrong)?) };
+        let depth = parts.next().map(depth_of).transpose()?;
+        if parts.next().is_some() {
+            return Err(wrong());
+        }
+        match (rule, parameter) {
+            ("depth", Some(d)) if depth.is_none() => Ok(Self::Depth(depth_of(d)?)),
+            ("objects", Some(n)) => match n.parse() {
+                Ok(limit) if limit > 0 => Ok(Self::Objects { limit, depth }),
+                _ => Err(wrong()),
+            },
+            ("cost-k", Some(k)) => match k.parse() {
+                Ok(k) if (0.0..f64::INFINITY).contains(&k) => Ok(Self::CostK { k, depth }),
+                _ => Err(wrong()),
+            },
+            ("cost-gain", None) => Ok(Self::CostGain { depth }),
+            _ => Err(wrong()),
+        }
+    }
+}
+
+impl TryFrom<String> for StopRule {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<StopRule> for String {
+    fn from(rule: StopRule) -> Self {
+        rule.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rules_read_back() {
+        for text in ["depth:9", "objects:2:16", "objects:1", "cost-k:0.5:20", "cost-k:3", "cost-gain", "cost-gain:40"] {
+            let rule: StopRule = text.parse().expect(text);
+            assert_eq!(rule.to_string(), text);
+        }
+        for text in ["", "depth", "depth:129", "depth:3:4", "objects", "objects:0", "cost-k:-1", "cost-k:inf", "cost-gain:x", "objects:2:16:1"] {
+            assert!(text.parse::<StopRule>().is_err(), "{text}");
+        }
+    }
+
+    #[test]
+    fn default_depths_are_pbrts() {
+        assert_eq!([1, 1_000, 10_000, 100_000].map(default_depth), [8, 20, 25, 29]);
+    }
+}

@@ -1,0 +1,181 @@
+//! Candidate planes on one axis and the object counts on their sides, from one pass over sorted events.
+//!
+//! Wald & Havran (2006): every object has a start and an end event on each axis (one planar event if it is flat
+//! there); they are sorted once, and their order survives every split. A node's list holds the events inside or on its
+//! box; objects whose start or end lies outside are known from the object count.
+
+use crate::cost::CostModel;
+use crate::geom::{Aabb, Axis};
+
+/// What happens to an object at a position. At equal positions ends come before planars before starts.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum EventKind {
+    End,
+    Planar,
+    Start,
+}
+
+/// A bound of an object on one axis.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Event {
+    pub position: f64,
+    pub object: u32,
+    pub kind: EventKind,
+}
+
+/// All events of one axis, in total order.
+pub(super) fn sorted_events(bounds: &[Aabb], axis: Axis) -> Vec<Event> {
+    let mut events = Vec::with_capacity(2 * bounds.len());
+    for (object, b) in bounds.iter().enumerate() {
+        // Adding +0 turns -0 into +0, so that equal positions are equal to `total_cmp` too.
+        let (lo, hi) = (b.lo[axis] + 0.0, b.hi[axis] + 0.0);
+        let mut push = |position, kind| {
+            events.push(Event {
+                position,
+                object: object as u32,
+                kind,
+            });
+        };
+        if lo == hi {
+            push(lo, EventKind::Planar);
+        } else {
+            push(lo, EventKind::Start);
+            push(hi, EventKind::End);
+        }
+    }
+    events.sort_unstable_by(|a, b| {
+        a.position
+            .total_cmp(&b.position)
+            .then(a.kind.cmp(&b.kind))
+            .then(a.object.cmp(&b.object))
+    });
+    events
+}
+
+/// A plane with its one-level cost.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Split {
+    pub axis: Axis,
+    pub position: f64,
+    /// Whether objects lying in the plane go left.
+    pub planar_left: bool,
+    /// Expected cost of the node cut here, its parts left as leaves.
+    pub cost: f64,
+}
+
+/// One axis of one node: what a sweep reads.
+pub(super) struct Sweep<'a> {
+    pub axis: Axis,
+    pub bounds: &'a Aabb,
+    /// Events of the axis inside or on the node's box.
+    pub events: &'a [Event],
+    /// Objects in the node.
+    pub n: usize,
+    pub cost: &'a CostModel,
+    /// Whether a plane that keeps all n objects on both sides is a candidate.
+    pub keep_useless: bool,
+}
+
+impl Sweep<'_> {
+    /// The cheapest candidate; of equals the lowest. Candidates are the object bounds inside `window` and the positions
+    /// `extra` (ascending), all strictly inside the node.
+    pub fn cheapest(&self, window: Option<(f64, f64)>, extra: &[f64]) -> Option<Split> {
+        let (lo, hi) = (self.bounds.lo[self.axis], self.bounds.hi[self.axis]);
+        let window = window.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+        let in_window = |s: f64| window.0 <= s && s <= window.1;
+        let coster = Coster::new(self);
+        let mut best: Option<Split> = None;
+        let mut offer = |s: f64, left: usize, planar: usize, right: usize| {
+            if !(lo < s && s < hi) {
+                return;
+            }
+            if let Some(split) = coster.split(s, left, planar, right)
+                && best.is_none_or(|b| split.cost < b.cost)
+            {
+                best = Some(split);
+            }
+        };
+
+        // Left of the first event: objects that start below the node are on the left, all are on the right.
+        let begun = self.events.iter().filter(|e| e.kind != EventKind::End).count();
+        let mut left = self.n - begun;
+        let mut right = self.n;
+        let mut extra = extra.iter().copied().peekable();
+        let mut rest = self.events;
+        while let Some(first) = rest.first() {
+            let s = first.position;
+            while let Some(x) = extra.next_if(|&x| x < s) {
+                offer(x, left, 0, right);
+            }
+            // All events at s: first what ends here, then what lies here, then what starts here.
+            let run = |events: &[Event], kind| events.iter().take_while(|e| e.position == s && e.kind == kind).count();
+            let ends = run(rest, EventKind::End);
+            let planars = run(&rest[ends..], EventKind::Planar);
+            let starts = run(&rest[ends + planars..], EventKind::Start);
+            rest = &rest[ends + planars + starts..];
+            right -= ends + planars;
+            let asked = extra.next_if(|&x| x == s).is_some();
+            if asked || in_window(s) {
+                offer(s, left, planars, right);
+            }
+            left += planars + starts;
+        }
+        for x in extra {
+            offer(x, left, 0, right);
+        }
+        best
+    }
+}
+
+/// The split cost on one axis as a function of the position and the counts.
+struct Coster<'a> {
+    sweep: &'a Sweep<'a>,
+    lo: f64,
+    hi: f64,
+    /// Area of the cut and half its perimeter: a part of length x has SA = 2 (cut + x girth).
+    cut: f64,
+    girth: f64,
+    /// 2 / SA(node).
+    scale: f64,
+}
+
+impl<'a> Coster<'a> {
+    fn new(sweep: &'a Sweep<'a>) -> Self {
+        let k = sweep.axis;
+        let extent = sweep.bounds.extent();
+        Self {
+            sweep,
+            lo: sweep.bounds.lo[k],
+            hi: sweep.bounds.hi[k],
+            cut: extent[(k + 1) % 3] * extent[(k + 2) % 3],
+            girth: extent[(k + 1) % 3] + extent[(k + 2) % 3],
+            scale: 2.0 / sweep.bounds.surface_area(),
+        }
+    }
+
+    /// The split at s with `planar` objects on its cheaper side (left on a tie), or `None` if it is no candidate.
+    #[inline]
+    fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
+        let Sweep { axis, n, cost, keep_useless, .. } = *self.sweep;
+        let p_left = self.scale * (self.cut + (s - self.lo) * self.girth);
+        let p_right = self.scale * (self.cut + (self.hi - s) * self.girth);
+        let with = |l: usize, r: usize| {
+            let useless = l == n && r == n && !keep_useless;
+            (!useless).then(|| cost.split(p_left, l as f64, p_right, r as f64))
+        };
+        let on_left = with(left + planar, right);
+        let on_right = if planar > 0 { with(left, right + planar) } else { None };
+        let (planar_left, cost) = match (on_left, on_right) {
+            (Some(l), Some(r)) if r < l => (false, r),
+            (Some(l), _) => (true, l),
+            (None, Some(r)) => (false, r),
+            (None, None) => return None,
+        };
+        Some(Split {
+            axis,
+            position: s,
+            planar_left,
+            cost,
+        })
+    }
+}

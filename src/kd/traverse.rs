@@ -1,0 +1,153 @@
+//! One traversal, generic over a [`Probe`] and a padding [`Mode`].
+//!
+//! A line with span [t0, t1] in a node meets the plane at t: it visits the near child if t >= t0 and the far one if
+//! t <= t1, both ends included; a line parallel to the plane visits its side, or both sides if it lies in the plane.
+//! Near and far are told by the direction's sign, never by the origin's side. Unpadded, the visited nodes are exactly
+//! those whose closed boxes pass the slab test, bit for bit.
+
+use crate::geom::{Aabb, Line, Objects, PADDING, Ray, Span};
+
+use super::{NoProbe, NodeKind, Probe, Tree};
+
+/// How parameters of planes are treated.
+pub trait Mode {
+    /// Relative widening of each plane's t.
+    const PADDING: f64;
+    /// The root's part of the span.
+    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span>;
+}
+
+/// Counting: closed and unpadded, equal to the slab test on every node's box.
+pub struct Counting;
+
+/// Tracing: widened, so that rounding never loses a hit.
+pub struct Tracing;
+
+impl Mode for Counting {
+    const PADDING: f64 = 0.0;
+
+    #[inline(always)]
+    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span> {
+        root.clip(line, span)
+    }
+}
+
+impl Mode for Tracing {
+    const PADDING: f64 = PADDING;
+
+    #[inline(always)]
+    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span> {
+        root.clip_conservative(line, span)
+    }
+}
+
+/// Nodes still to visit, kept between traversals to spare allocations.
+#[derive(Default)]
+pub struct Stack(Vec<(u32, Span)>);
+
+/// Visit the nodes that `line` meets within `span`, front to back.
+///
+/// `leaf` gets a leaf's objects and returns the t up to which further nodes matter: +inf for a line, the best hit so far
+/// for a nearest hit, -inf to stop.
+#[inline]
+pub fn traverse<M: Mode>(
+    tree: &Tree,
+    line: &Line,
+    span: Span,
+    stack: &mut Stack,
+    mut probe: impl Probe,
+    mut leaf: impl FnMut(&[u32]) -> f64,
+) {
+    let Some(Span { mut t0, mut t1 }) = M::enter(&tree.world, line, span) else {
+        return;
+    };
+    let stack = &mut stack.0;
+    stack.clear();
+    let mut node = 0;
+    loop {
+        match tree.nodes[node as usize].kind() {
+            NodeKind::Inner { axis, split, left } => {
+                probe.inner(node);
+                if line.is_parallel(axis) {
+                    let origin = line.origin[axis];
+                    node = left + u32::from(origin > split);
+                    if origin == split {
+                        stack.push((left + 1, Span { t0, t1 }));
+                    }
+                    continue;
+                }
+                let right_first = u32::from(line.inverse[axis] < 0.0);
+                let (near, far) = (left + right_first, left + 1 - right_first);
+                let t = line.t_at(axis, split);
+                let slack = M::PADDING * t.abs();
+                if t - slack > t1 {
+                    node = near;
+                } else if t + slack < t0 {
+                    node = far;
+                } else {
+                    let far_t0 = t0.max(t - slack);
+                    stack.push((far, Span { t0: far_t0, t1 }));
+                    node = near;
+                    t1 = t1.min(t + slack);
+                }
+            }
+            NodeKind::Leaf { first, count } => {
+                probe.leaf(node, count);
+                let limit = leaf(tree.objects(first, count));
+                match stack.pop() {
+                    Some((next, span)) if span.t0 <= limit => {
+                        node = next;
+                        Span { t0, t1 } = span;
+                    }
+                    _ => return,
+                }
+            }
+        }
+    }
+}
+
+/// Visit every node that a line meets, as the area prediction assumes: the line never stops.
+#[inline]
+pub fn traverse_line(tree: &Tree, line: &Line, span: Span, stack: &mut Stack, probe: impl Probe) {
+    traverse::<Counting>(tree, line, span, stack, probe, |_| f64::INFINITY);
+}
+
+/// The nearest hit of a ray.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hit {
+    /// Number of the object hit.
+    pub object: u32,
+    /// Parameter of the hit.
+    pub t: f64,
+}
+
+impl Hit {
+    /// The nearer of two hits; at equal t the lower object number.
+    #[inline]
+    pub fn nearer(best: Option<Self>, object: u32, t: f64) -> Option<Self> {
+        match best {
+            Some(b) if (b.t, b.object) <= (t, object) => best,
+            _ => Some(Self { object, t }),
+        }
+    }
+}
+
+/// The nearest hit of a ray; at equal t the lowest object number.
+pub fn nearest(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> Option<Hit> {
+    nearest_watched(tree, objects, ray, stack, NoProbe)
+}
+
+/// As [`nearest`], with a probe.
+#[inline]
+pub fn nearest_watched(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack, probe: impl Probe) -> Option<Hit> {
+    let mut best: Option<Hit> = None;
+    traverse::<Tracing>(tree, &ray.line, ray.span, stack, probe, |in_leaf| {
+        for &object in in_leaf {
+            if let Some(t) = objects.intersect(object, ray) {
+                best = Hit::nearer(best, object, t);
+            }
+        }
+        best.map_or(f64::INFINITY, |hit| hit.t)
+    });
+    best
+}

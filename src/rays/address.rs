@@ -1,0 +1,71 @@
+//! One address for every random number: a seed, a purpose and a position in a ChaCha8 stream.
+//!
+//! ChaCha8 is portable and seekable, so line i is a function of (seed, i) whatever the threads, blocks or order.
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use rand::Rng;
+
+/// What random numbers are for: different purposes never share a number.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Purpose {
+    /// The lines of a study.
+    Lines = 1,
+    /// Lines of the independent samplers and of the wrong laws.
+    Laws = 2,
+    /// Boxes and triangles that check a sampler.
+    Checks = 3,
+}
+
+/// A generator for a seed and a purpose, at the start of its stream.
+pub fn generator(seed: u64, purpose: Purpose) -> ChaCha8Rng {
+    let mut key = [0; 32];
+    key[..8].copy_from_slice(&seed.to_le_bytes());
+    key[8] = purpose as u8;
+    ChaCha8Rng::from_seed(key)
+}
+
+/// Sequences of uniforms in (0, 1), four to an index.
+pub struct Uniforms {
+    rng: ChaCha8Rng,
+}
+
+/// 32-bit words one index takes: four 64-bit draws.
+const WORDS: u128 = 8;
+
+impl Uniforms {
+    /// The sequence of a seed, from index `i` on.
+    pub fn starting_at(seed: u64, i: u64) -> Self {
+        let mut rng = generator(seed, Purpose::Lines);
+        rng.set_word_pos(WORDS * u128::from(i));
+        Self { rng }
+    }
+
+    /// The uniforms of this index; moves on to the next.
+    #[inline]
+    pub fn next4(&mut self) -> [f64; 4] {
+        std::array::from_fn(|_| uniform(&mut self.rng))
+    }
+}
+
+/// (k + 1/2) / 2^53 for a uniform 53-bit k: never 0, never 1.
+#[inline]
+pub(super) fn uniform(rng: &mut impl Rng) -> f64 {
+    ((rng.next_u64() >> 11) as f64 + 0.5) * (1.0 / (1_u64 << 53) as f64)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_index_has_its_own_place() {
+        let mut all = Uniforms::starting_at(7, 0);
+        let sequence: Vec<_> = (0..100).map(|_| all.next4()).collect();
+        for i in [0, 1, 2, 17, 63, 99] {
+            assert_eq!(Uniforms::starting_at(7, i as u64).next4(), sequence[i]);
+        }
+        assert_ne!(Uniforms::starting_at(8, 0).next4(), sequence[0]);
+        assert!(sequence.iter().flatten().all(|&u| 0.0 < u && u < 1.0));
+    }
+}
