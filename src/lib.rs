@@ -9,6 +9,7 @@
 //! [`study`]; [`report`].
 
 pub mod cost;
+pub mod files;
 pub mod geom;
 pub mod kd;
 pub mod rays;
@@ -16,3 +17,6 @@ pub mod report;
 pub mod scene;
 pub mod stats;
 pub mod study;
+
+/// Twelve hex digits that stand for this program's sources and locked dependencies.
+pub const REVISION: &str = env!("SAHLAB_REVISION");

@@ -7,7 +7,7 @@ use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::{Aabb, Line, Ray, Span, Triangle};
-use crate::stats::tails::{binomial_tail, normal_tail};
+use crate::stats::{binomial_tail, normal_p};
 
 use super::address::{Purpose, generator, uniform};
 
@@ -160,7 +160,7 @@ pub fn check_sampler(
     let p_of = |(sum, squares): (f64, f64)| {
         let mean = sum / n;
         let variance = squares / n - mean * mean;
-        normal_tail(mean / (variance / n).sqrt().max(f64::MIN_POSITIVE))
+        normal_p(mean / (variance / n).sqrt().max(f64::MIN_POSITIVE))
     };
     let worst = |ps: &mut dyn Iterator<Item = f64>, m: usize| (m as f64 * ps.fold(1.0, f64::min)).min(1.0);
     let tail = |(&hits, p): (&u64, f64)| binomial_tail(hits, lines, p);

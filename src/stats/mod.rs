@@ -1,1 +1,25 @@
-//! (being written)
+//! The statistics behind every verdict of the study.
+//!
+//! The idea: sums are gathered exactly ([`IntegerMoments`], [`IntegerCovariance`]) or nearly so ([`ScoreMoments`]),
+//! lines are fitted to the accuracy of the data ([`least_squares`]), and each claim ends in one p-value
+//! ([`normal_p`], [`student_p`], [`binomial_tail`], [`hotelling()`]) that [`holm()`] corrects for its companions.
+//!
+//! The invariant: every function here is a deterministic function of its arguments and never returns NaN. A quantity
+//! that does not exist (the mean of nothing) is `None`; an argument that can only come from a programming error (a
+//! probability of 2) is a panic with the value in its message; bad data for a regression is an error.
+
+pub mod binomial;
+mod double_double;
+pub mod hotelling;
+pub mod moments;
+pub mod multiple;
+mod qr;
+pub mod regression;
+pub mod tails;
+
+pub use binomial::binomial_tail;
+pub use hotelling::{Hotelling, hotelling};
+pub use moments::{IntegerCovariance, IntegerMoments, ScoreMoments};
+pub use multiple::holm;
+pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
+pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};

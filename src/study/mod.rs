@@ -1,2 +1,10 @@
-//! x
+//! Experiments: from a file to cells, from cells to records, from records to verdicts.
+
+pub mod cell;
+pub mod hits_vs_area;
+pub mod plan;
 pub mod records;
+pub mod scores;
+pub mod store;
+
+pub use plan::{LineRule, Plan, PlanError};

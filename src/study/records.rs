@@ -9,7 +9,8 @@ use serde::{Deserialize, Serialize};
 /// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
 ///
 /// Rates are per line. `*_se` is the standard error of the counted rate, from the per-line scores of the first
-/// `pilot_lines` lines and the number of all `lines`.
+/// `pilot_lines` lines and the number of all `lines`. Fits and tests are empty where the tree has nothing to fit: no node
+/// but the root, or (free line) no two nodes of different area.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellRecord {
@@ -80,37 +81,37 @@ pub struct CellRecord {
     /// Standard error of `c_counted`.
     pub c_se: f64,
     /// Slope through the origin, weights 1/(p(1-p)) from the predicted p.
-    pub slope: f64,
+    pub slope: Option<f64>,
     /// Standard error of `slope`, from per-line scores.
-    pub slope_se: f64,
+    pub slope_se: Option<f64>,
     /// Slope through the origin, ordinary least squares.
-    pub slope_ols: f64,
+    pub slope_ols: Option<f64>,
     /// Standard error of `slope_ols`, from per-line scores.
-    pub slope_ols_se: f64,
+    pub slope_ols_se: Option<f64>,
     /// Free line y = a + b p (weighted): intercept a.
-    pub free_intercept: f64,
+    pub free_intercept: Option<f64>,
     /// Standard error of `free_intercept`.
-    pub free_intercept_se: f64,
+    pub free_intercept_se: Option<f64>,
     /// Free line y = a + b p (weighted): slope b.
-    pub free_slope: f64,
+    pub free_slope: Option<f64>,
     /// Standard error of `free_slope`.
-    pub free_slope_se: f64,
+    pub free_slope_se: Option<f64>,
     /// p-value of a = 0 and b = 1 together (Hotelling, F(2, n - 2)).
-    pub free_p: f64,
+    pub free_p: Option<f64>,
     /// 1 - R^2 of the ordinary line through the origin (R^2 uncentred).
-    pub unexplained: f64,
+    pub unexplained: Option<f64>,
     /// What 1 - R^2 is expected to be for a correct program: sum p(1-p) / (N sum p^2).
-    pub unexplained_expected: f64,
+    pub unexplained_expected: Option<f64>,
     /// Largest |z| over the nodes.
-    pub max_abs_z: f64,
+    pub max_abs_z: Option<f64>,
     /// Smallest exact two-sided binomial tail over the nodes.
-    pub smallest_tail: f64,
+    pub smallest_tail: Option<f64>,
     /// p-value of slope = 1 (weighted).
-    pub slope_p: f64,
+    pub slope_p: Option<f64>,
     /// Nodes times `smallest_tail`, at most 1.
-    pub tail_p: f64,
+    pub tail_p: Option<f64>,
     /// p-value of Hotelling's test over the contrasts.
-    pub hotelling_p: f64,
+    pub hotelling_p: Option<f64>,
     /// Independent contrasts in that test.
     pub contrasts: u64,
 }

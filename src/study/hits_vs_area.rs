@@ -1,0 +1,187 @@
+//! The experiment `hits-vs-area`: MacDonald & Booth's Figure 3 for every node of every tree, and the counts it implies.
+
+use sha2::{Digest, Sha256};
+
+use crate::kd::Rules;
+use crate::scene::Scene;
+use crate::stats::{holm, normal_quantile, simultaneous_quantile};
+
+use super::Plan;
+use super::cell::CellPlan;
+use super::records::{CellRecord, Estimate, Summary, Verdict};
+
+/// Version of the layout of `data/`.
+pub const SCHEMA: u32 = 1;
+
+/// The cells of a plan in canonical order: scenes, then strategies.
+pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<(String, &'a Scene, Rules)> {
+    let mut cells = Vec::new();
+    for scene in scenes {
+        let content = content_hash(scene);
+        for &strategy in &plan.strategies {
+            let rules = Rules {
+                strategy,
+                stop: plan.stop,
+                cost: plan.cost,
+            };
+            let identity = format!(
+                "{SCHEMA} {} {content} {rules:?} seed {} {:?}",
+                scene.name, plan.seed, plan.lines
+            );
+            cells.push((hex(&Sha256::digest(identity)[..8]), scene, rules));
+        }
+    }
+    cells
+}
+
+/// The cell to measure.
+pub fn cell_plan<'a>(plan: &Plan, id: &'a str, scene: &'a Scene, rules: Rules) -> CellPlan<'a> {
+    let drawn = scene.name == plan.figure.scene && rules.strategy == plan.figure.strategy;
+    CellPlan {
+        id,
+        scene,
+        rules,
+        seed: plan.seed,
+        lines: plan.lines,
+        nodes: plan.nodes || drawn,
+    }
+}
+
+/// A scene's content: the boxes are all that a tree and its counts depend on.
+fn content_hash(scene: &Scene) -> String {
+    let mut hash = Sha256::new();
+    for b in &scene.bounds {
+        for value in b.lo.to_array().into_iter().chain(b.hi.to_array()) {
+            hash.update(value.to_le_bytes());
+        }
+    }
+    hex(&hash.finalize()[..8])
+}
+
+fn hex(bytes: &[u8]) -> String {
+    bytes.iter().map(|b| format!("{b:02x}")).collect()
+}
+
+/// The run's answer: estimates with intervals, and whether the expectations held.
+pub fn summarise(plan: &Plan, cells: &[CellRecord]) -> Summary {
+    let mut estimates = Vec::new();
+    // Slope and three counts of every cell are judged together; C is a form of the counts.
+    let judged = cells.len() * 4;
+    let one = normal_quantile(0.99);
+    let all = simultaneous_quantile(1.0 - plan.expect.family, judged);
+    for r in cells {
+        let mut push = |name: &str, value: f64, se: f64, predicted: f64| {
+            estimates.push(Estimate {
+                name: name.into(),
+                scene: r.scene.clone(),
+                strategy: r.strategy.clone(),
+                value,
+                lo: value - one * se,
+                hi: value + one * se,
+                se,
+                n: r.lines,
+                predicted,
+                lo_all: value - all * se,
+                hi_all: value + all * se,
+            });
+        };
+        if let (Some(slope), Some(se)) = (r.slope, r.slope_se) {
+            push("slope", slope, se, 1.0);
+        }
+        push("n_K", r.n_k_counted, r.n_k_se, r.n_k_predicted);
+        push("n_B", r.n_b_counted, r.n_b_se, r.n_b_predicted);
+        push("n_t", r.n_t_counted, r.n_t_se, r.n_t_predicted);
+        push("C", r.c_counted, r.c_se, r.c_predicted);
+    }
+    Summary {
+        schema: SCHEMA,
+        experiment: plan.name.clone(),
+        kind: "hits-vs-area".into(),
+        question: plan.question.clone(),
+        seed: plan.seed,
+        quick: plan.quick,
+        figure_scene: plan.figure.scene.clone(),
+        figure_strategy: plan.figure.strategy.name(),
+        verdicts: verdicts(plan, cells, &estimates),
+        estimates,
+    }
+}
+
+fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Verdict> {
+    let verdict = |name: &str, held: bool, message: String| Verdict {
+        name: name.into(),
+        held,
+        message,
+    };
+    let place = |e: &Estimate| format!("{} on {}", e.strategy, e.scene);
+    let bound = plan.expect.slope_within;
+
+    // Equivalence: not "not rejected", but proved close.
+    let reach = |e: &&Estimate| (e.lo - 1.0).abs().max((e.hi - 1.0).abs());
+    let slopes: Vec<&Estimate> = estimates.iter().filter(|e| e.name == "slope").collect();
+    let widest = slopes.iter().copied().max_by(|a, b| reach(a).total_cmp(&reach(b)));
+    let close = slopes.iter().filter(|e| reach(e) <= bound).count();
+    let slope_within = widest.map(|w| {
+        let message = format!(
+            "99 % interval of the slope within 1 +- {} % in {close} of {} cells; widest reach {:.3} % ({})",
+            100.0 * bound,
+            slopes.len(),
+            100.0 * reach(&w),
+            place(w)
+        );
+        verdict("slope-within", close == slopes.len(), message)
+    });
+
+    let family = 100.0 * plan.expect.family;
+    let covers = |e: &&&Estimate| covers(e);
+    let simultaneous = |name: &str, what: &str, chosen: Vec<&Estimate>| {
+        let held = chosen.iter().filter(covers).count();
+        let missed = chosen.iter().find(|e| !covers(e));
+        let missed = missed.map_or(String::new(), |e| format!("; missed: {} of {}", e.name, place(e)));
+        let message = format!("{held} of {} simultaneous intervals (family {family} %) contain {what}{missed}", chosen.len());
+        verdict(name, held == chosen.len(), message)
+    };
+    let counts = estimates.iter().filter(|e| e.name != "slope" && e.name != "C").collect();
+
+    // Gate: Holm over slope, smallest tail and Hotelling of all cells.
+    let mut p_values = Vec::new();
+    for r in cells {
+        for (test, p) in [("slope", r.slope_p), ("smallest tail", r.tail_p), ("contrasts", r.hotelling_p)] {
+            p_values.extend(p.map(|p| (p, test, r)));
+        }
+    }
+    let adjusted = holm(&p_values.iter().map(|v| v.0).collect::<Vec<_>>());
+    let worst = (0..adjusted.len()).min_by(|&a, &b| p_values[a].0.total_cmp(&p_values[b].0));
+    let gate = worst.map(|i| {
+        let (p, test, r) = &p_values[i];
+        let message = format!(
+            "smallest of {} p-values is {:.2e} ({test}, {} on {}), after Holm {:.3}, at least {} wanted",
+            adjusted.len(),
+            p,
+            r.strategy,
+            r.scene,
+            adjusted[i],
+            plan.expect.gate
+        );
+        verdict("gate", adjusted[i] >= plan.expect.gate, message)
+    });
+
+    let visits: u64 = cells.iter().map(|r| r.inner_visits + r.leaf_visits).sum();
+    let identities = verdict(
+        "identities",
+        true,
+        format!("all integer identities held over {:.2e} visits; streams equal the plain traversal on every node", visits as f64),
+    );
+    let mut all = vec![identities];
+    all.extend(slope_within);
+    all.push(simultaneous("slopes-cover", "1", slopes));
+    all.push(simultaneous("counts-cover", "the predicted count", counts));
+    all.extend(gate);
+    all
+}
+
+/// Whether the simultaneous interval contains the prediction. Without variance both must be equal but for rounding.
+fn covers(e: &Estimate) -> bool {
+    let slack = 1e-12 * e.predicted.abs();
+    e.lo_all - slack <= e.predicted && e.predicted <= e.hi_all + slack
+}

@@ -1,0 +1,205 @@
+//! Per-line scores: what turns correlated nodes into independent observations.
+//!
+//! Nodes nest, so their hit counts are correlated and a regression's own errors are two to five times too small. But any
+//! slope through the origin is a mean over lines: b = (1/N) sum of g, g = sum of a_k over the nodes a line hits, with
+//! a_k = w_k p_k / sum w p^2. The g of different lines are independent, so SE(b) = sd(g)/sqrt(N), all correlation inside.
+
+use glam::DVec3;
+use rayon::prelude::*;
+
+use crate::geom::{Aabb, Line, Span};
+use crate::kd::traverse::traverse_line;
+use crate::kd::{Counts, NodeKind, Prediction, Probe, Stack, Tree, Work};
+use crate::stats::{IntegerCovariance, ScoreMoments};
+
+/// Contrasts for Hotelling's test: counts of visited nodes by size (8 classes of equal expected hits), by thinnest side
+/// (x, y), by position (upper half in x, y, z), and of leaves.
+pub const CONTRASTS: usize = 14;
+const SIZES: usize = 8;
+
+/// Scores a visit adds to a line's: weighted slope, ordinary slope, free line's intercept and slope.
+pub const SCORES: usize = 4;
+/// Index of the weighted slope's score.
+pub const WEIGHTED: usize = 0;
+/// Index of the ordinary slope's score.
+pub const ORDINARY: usize = 1;
+/// Index of the free intercept's score; the free slope's follows.
+pub const FREE: usize = 2;
+
+/// What one visit of each node adds, from the predicted p alone.
+pub struct Scoring {
+    scores: Vec<[f64; SCORES]>,
+    /// Bit c is set where a visit counts for contrast c.
+    contrasts: Vec<u16>,
+    /// Whether the node takes part: 0 < p < 1.
+    pub included: Vec<bool>,
+    /// Nodes that take part.
+    pub nodes: usize,
+    /// Whether a free line can be fitted: two nodes differ in p.
+    pub has_free_line: bool,
+}
+
+impl Scoring {
+    /// The scoring of a tree.
+    pub fn new(tree: &Tree, prediction: &Prediction) -> Self {
+        let p = &prediction.p;
+        let included: Vec<bool> = p.iter().map(|&p| 0.0 < p && p < 1.0).collect();
+        let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
+            p.iter().zip(&included).filter(|(_, i)| **i).map(|(&p, _)| term(p)).sum()
+        };
+        // Weights 1/(p(1-p)) from the theoretical p; weights from the data would bias the slope.
+        let weight = |p: f64| 1.0 / (p * (1.0 - p));
+        let weighted = sum(&|p| weight(p) * p * p);
+        let ordinary = sum(&|p| p * p);
+        let total = sum(&weight);
+        let centre = sum(&|p| weight(p) * p) / total;
+        let spread = sum(&|p| weight(p) * (p - centre) * (p - centre));
+        let smallest = p.iter().zip(&included).filter(|(_, i)| **i).map(|(&p, _)| p).fold(1.0, f64::min);
+        let has_free_line = p.iter().zip(&included).any(|(&p, &i)| i && p > smallest * (1.0 + 1e-9));
+        let score = |p: f64| {
+            let slope = if has_free_line { weight(p) * (p - centre) / spread } else { 0.0 };
+            let intercept = if has_free_line { weight(p) / total - centre * slope } else { 0.0 };
+            [weight(p) * p / weighted, p / ordinary, intercept, slope]
+        };
+        let scores = p.iter().zip(&included).map(|(&p, &i)| if i { score(p) } else { [0.0; SCORES] });
+        Self {
+            scores: scores.collect(),
+            contrasts: contrasts(tree, p, &included),
+            nodes: included.iter().filter(|&&i| i).count(),
+            included,
+            has_free_line,
+        }
+    }
+
+    /// Sum over the nodes that take part of `value` by contrast.
+    pub fn by_contrast(&self, value: impl Fn(usize) -> f64) -> [f64; CONTRASTS] {
+        let mut sums = [0.0; CONTRASTS];
+        for (i, &mask) in self.contrasts.iter().enumerate() {
+            let value = value(i);
+            bits(mask).for_each(|c| sums[c] += value);
+        }
+        sums
+    }
+}
+
+fn bits(mut mask: u16) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let bit = (mask != 0).then(|| mask.trailing_zeros() as usize);
+        mask &= mask.wrapping_sub(1);
+        bit
+    })
+}
+
+fn contrasts(tree: &Tree, p: &[f64], included: &[bool]) -> Vec<u16> {
+    let mut masks = vec![0; p.len()];
+    // Size classes with equal sums of p: each is hit about equally often, however many small nodes there are.
+    let mut by_size: Vec<usize> = (0..p.len()).filter(|&i| included[i]).collect();
+    by_size.sort_by(|&a, &b| p[b].total_cmp(&p[a]).then(a.cmp(&b)));
+    let total: f64 = by_size.iter().map(|&i| p[i]).sum();
+    let mut before = 0.0;
+    for i in by_size {
+        let class = (SIZES as f64 * (before + 0.5 * p[i]) / total) as usize;
+        before += p[i];
+        masks[i] = 1 << class.min(SIZES - 1) | shape(&tree.boxes[i], &tree.world) << SIZES;
+        if matches!(tree.nodes[i].kind(), NodeKind::Leaf { .. }) {
+            masks[i] |= 1 << (CONTRASTS - 1);
+        }
+    }
+    masks
+}
+
+/// Bits 0-1: thinnest along x, y; bits 2-4: centre in the world's upper half in x, y, z.
+fn shape(node: &Aabb, world: &Aabb) -> u16 {
+    let DVec3 { x, y, z } = node.extent();
+    let upper = node.centre().cmpgt(world.centre()).bitmask() as u16;
+    u16::from(x <= y && x <= z) | u16::from(y < x && y <= z) << 1 | upper << 2
+}
+
+/// Scores, counts and hits of some lines, traversed one by one.
+pub struct Scored {
+    /// Means and covariance of the scores.
+    pub scores: ScoreMoments<SCORES>,
+    /// Of (n_K, n_B, n_t).
+    pub work: IntegerCovariance,
+    /// Of the contrasts.
+    pub contrasts: IntegerCovariance,
+    /// Hits per node by the plain traversal.
+    pub counts: Counts,
+}
+
+/// Lines summed in sequence; their sums are merged by index, so floating-point results do not depend on threads.
+const CHUNK: u64 = 4096;
+
+/// Score the first `lines` lines given by `make(start..end)`.
+pub fn score_lines<I>(
+    tree: &Tree,
+    scoring: &Scoring,
+    lines: u64,
+    make: impl Fn(std::ops::Range<u64>) -> I + Sync,
+) -> Scored
+where
+    I: Iterator<Item = Line>,
+{
+    let empty = || Scored {
+        scores: ScoreMoments::default(),
+        work: IntegerCovariance::new(3),
+        contrasts: IntegerCovariance::new(CONTRASTS),
+        counts: Counts::new(tree),
+    };
+    let chunk = |c: u64| {
+        let mut scored = empty();
+        let mut stack = Stack::default();
+        for line in make(c * CHUNK..lines.min((c + 1) * CHUNK)) {
+            let mut watch = LineScore {
+                scoring,
+                scores: [0.0; SCORES],
+                contrasts: [0; CONTRASTS],
+            };
+            let mut work = Work::default();
+            scored.counts.lines += 1;
+            traverse_line(tree, &line, Span::FULL, &mut stack, (&mut scored.counts, (&mut work, &mut watch)));
+            scored.scores.push(watch.scores);
+            scored.work.push(&[work.inner as u32, work.leaves as u32, work.tests as u32]);
+            scored.contrasts.push(&watch.contrasts);
+        }
+        scored
+    };
+    let chunks: Vec<Scored> = (0..lines.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
+    chunks.into_iter().fold(empty(), |mut all, part| {
+        all.scores.merge(&part.scores);
+        all.work.merge(&part.work);
+        all.contrasts.merge(&part.contrasts);
+        all.counts = all.counts.merge(&part.counts);
+        all
+    })
+}
+
+/// Adds up one line's scores as it goes.
+struct LineScore<'a> {
+    scoring: &'a Scoring,
+    scores: [f64; SCORES],
+    contrasts: [u32; CONTRASTS],
+}
+
+impl LineScore<'_> {
+    #[inline]
+    fn visit(&mut self, node: u32) {
+        let added = &self.scoring.scores[node as usize];
+        for (sum, score) in self.scores.iter_mut().zip(added) {
+            *sum += score;
+        }
+        bits(self.scoring.contrasts[node as usize]).for_each(|c| self.contrasts[c] += 1);
+    }
+}
+
+impl Probe for LineScore<'_> {
+    #[inline]
+    fn inner(&mut self, node: u32) {
+        self.visit(node);
+    }
+
+    #[inline]
+    fn leaf(&mut self, node: u32, _: u32) {
+        self.visit(node);
+    }
+}
