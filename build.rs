@@ -17,12 +17,20 @@ fn main() {
         hash.update(fs::read(root.join(file)).expect("a source file can be read"));
     }
     println!("cargo::rerun-if-changed=src");
-    let digits: String = hash.finalize().iter().take(6).map(|b| format!("{b:02x}")).collect();
+    let digits: String = hash
+        .finalize()
+        .iter()
+        .take(6)
+        .map(|b| format!("{b:02x}"))
+        .collect();
     println!("cargo::rustc-env=SAHLAB_REVISION={digits}");
 }
 
 fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(root.join(folder)).expect("src is a folder").flatten() {
+    for entry in fs::read_dir(root.join(folder))
+        .expect("src is a folder")
+        .flatten()
+    {
         let path = folder.join(entry.file_name());
         if root.join(&path).is_dir() {
             collect(root, &path, files);

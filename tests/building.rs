@@ -17,7 +17,8 @@ fn every_tree_passes_the_audit() {
             for strategy in Strategy::ALL {
                 for stop in STOPS {
                     let tree = tree(&bounds, strategy, stop);
-                    audit(&tree, &bounds).unwrap_or_else(|f| panic!("{n} {strategy} {stop}: {f:?}"));
+                    audit(&tree, &bounds)
+                        .unwrap_or_else(|f| panic!("{n} {strategy} {stop}: {f:?}"));
                     assert!(tree.references.len() >= n);
                     assert_eq!(tree, common::tree(&bounds, strategy, stop), "deterministic");
                 }
@@ -33,7 +34,12 @@ fn equal_nested_and_point_objects_end() {
         let r = f64::from(i) / 200.0;
         Aabb::new(DVec3::splat(0.5 - r), DVec3::splat(0.5 + r))
     });
-    let points = (0..100).map(|i| Aabb::new(DVec3::splat(f64::from(i % 10)), DVec3::splat(f64::from(i % 10))));
+    let points = (0..100).map(|i| {
+        Aabb::new(
+            DVec3::splat(f64::from(i % 10)),
+            DVec3::splat(f64::from(i % 10)),
+        )
+    });
     for bounds in [vec![cube; 1000], nested.collect(), points.collect()] {
         for strategy in Strategy::ALL {
             for stop in STOPS {
@@ -66,14 +72,23 @@ fn planes_known_by_hand() {
     ];
     assert_eq!(root_plane(&bounds, Strategy::SpatialMedian), Some((0, 5.0)));
     assert_eq!(root_plane(&bounds, Strategy::ObjectMedian), Some((0, 1.5)));
-    assert_eq!(root_plane(&bounds, Strategy::MedianMidpoint), Some((0, 3.25)));
+    assert_eq!(
+        root_plane(&bounds, Strategy::MedianMidpoint),
+        Some((0, 3.25))
+    );
     // f at x = 1: SA_L 6 * 1 + SA_R 38 * 2 = 82; at 2: 10 * 2 + 34 * 1 = 54; at 9: 38 * 2 + 6 * 1 = 82.
     assert_eq!(root_plane(&bounds, Strategy::Sah), Some((0, 2.0)));
     assert_eq!(root_plane(&bounds, Strategy::SahCyclic), Some((0, 2.0)));
     // Between the medians 1.5 and 5 lie the bound 2 and both medians: 2 wins (1.5: 8 * 2 + 36 * 2; 5: 22 * 2 + 22).
-    assert_eq!(root_plane(&bounds, Strategy::SahBetweenMedians), Some((0, 2.0)));
+    assert_eq!(
+        root_plane(&bounds, Strategy::SahBetweenMedians),
+        Some((0, 2.0))
+    );
     // One sample between the medians: 3.25 costs 15 * 2 + 29 = 59 and beats both medians.
-    assert_eq!(root_plane(&bounds, Strategy::SahSamples(1)), Some((0, 3.25)));
+    assert_eq!(
+        root_plane(&bounds, Strategy::SahSamples(1)),
+        Some((0, 3.25))
+    );
 }
 
 #[test]
@@ -129,7 +144,11 @@ fn stop_rules_stop_where_they_say() {
     assert_eq!(shallow.depth, 4);
     let by_tests = tree(&bounds, Strategy::Sah, "cost-k:0.5:40");
     let p = predict(&by_tests).p;
-    assert!(leaves(&by_tests).iter().all(|&(i, n)| f64::from(n) * p[i] <= 0.5));
+    assert!(
+        leaves(&by_tests)
+            .iter()
+            .all(|&(i, n)| f64::from(n) * p[i] <= 0.5)
+    );
     // Cost gain: a cut never raises the cost of what the rule sees, so the tree's cost is below the single leaf's.
     let by_gain = predict(&tree(&bounds, Strategy::Sah, "cost-gain"));
     let cost = rules(Strategy::Sah, "cost-gain").cost;
@@ -140,17 +159,30 @@ fn stop_rules_stop_where_they_say() {
 #[test]
 fn the_sweep_finds_what_exhaustive_search_finds() {
     for seed in 0..30 {
-        let bounds = if seed % 2 == 0 { gridded_boxes(40, seed) } else { random_boxes(40, seed) };
+        let bounds = if seed % 2 == 0 {
+            gridded_boxes(40, seed)
+        } else {
+            random_boxes(40, seed)
+        };
         let world = world(&bounds);
         let cost = rules(Strategy::Sah, "objects:1").cost;
         let mut best: Option<(f64, Axis, f64)> = None;
         for axis in 0..3 {
-            let mut positions: Vec<f64> = bounds.iter().flat_map(|b| [b.lo[axis], b.hi[axis]]).collect();
+            let mut positions: Vec<f64> = bounds
+                .iter()
+                .flat_map(|b| [b.lo[axis], b.hi[axis]])
+                .collect();
             positions.sort_by(f64::total_cmp);
-            for s in positions.into_iter().filter(|&s| world.lo[axis] < s && s < world.hi[axis]) {
+            for s in positions
+                .into_iter()
+                .filter(|&s| world.lo[axis] < s && s < world.hi[axis])
+            {
                 let below = bounds.iter().filter(|b| b.lo[axis] < s).count();
                 let above = bounds.iter().filter(|b| b.hi[axis] > s).count();
-                let flat = bounds.iter().filter(|b| b.lo[axis] == s && b.hi[axis] == s).count();
+                let flat = bounds
+                    .iter()
+                    .filter(|b| b.lo[axis] == s && b.hi[axis] == s)
+                    .count();
                 let (l, r) = world.split(axis, s);
                 let p = |b: Aabb| b.surface_area() / world.surface_area();
                 for (nl, nr) in [(below + flat, above), (below, above + flat)] {
@@ -167,7 +199,10 @@ fn the_sweep_finds_what_exhaustive_search_finds() {
         if (found_axis, found) != (axis, s) {
             let again = predict(&build(&bounds, world, &rules(Strategy::Sah, "objects:1:1")));
             let c = cost.cost(again.n_k, again.n_b, again.n_t);
-            assert!((c - cost_found).abs() < 1e-9, "seed {seed}: {c} against {cost_found}");
+            assert!(
+                (c - cost_found).abs() < 1e-9,
+                "seed {seed}: {c} against {cost_found}"
+            );
         }
     }
 }
@@ -177,14 +212,21 @@ fn the_sweep_finds_what_exhaustive_search_finds() {
 #[test]
 fn at_one_node_no_strategy_beats_sah() {
     for seed in 0..40 {
-        let bounds = if seed % 2 == 0 { gridded_boxes(60, seed) } else { random_boxes(60, seed) };
+        let bounds = if seed % 2 == 0 {
+            gridded_boxes(60, seed)
+        } else {
+            random_boxes(60, seed)
+        };
         let cost_of = |strategy| {
             let p = predict(&tree(&bounds, strategy, "objects:1:1"));
             rules(strategy, "objects:1").cost.cost(p.n_k, p.n_b, p.n_t)
         };
         let best = cost_of(Strategy::Sah);
         for strategy in Strategy::ALL {
-            assert!(best <= cost_of(strategy) * (1.0 + 1e-12), "seed {seed}: {strategy}");
+            assert!(
+                best <= cost_of(strategy) * (1.0 + 1e-12),
+                "seed {seed}: {strategy}"
+            );
         }
     }
 }
@@ -201,7 +243,9 @@ mod rejected {
     }
 
     fn faults(bounds: &[Aabb], tree: &Tree) -> String {
-        audit(tree, bounds).expect_err("the audit missed a fault").join("; ")
+        audit(tree, bounds)
+            .expect_err("the audit missed a fault")
+            .join("; ")
     }
 
     fn an_inner_node(tree: &Tree) -> (usize, Axis, f64, u32) {

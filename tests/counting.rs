@@ -50,15 +50,26 @@ fn streamed(tree: &Tree, lines: &[Line]) -> Counts {
 
 #[test]
 fn streams_equal_plain_equal_brute_force_on_every_node() {
-    for (bounds, name) in [(gridded_boxes(300, 1), "gridded"), (random_boxes(300, 2), "random")] {
+    for (bounds, name) in [
+        (gridded_boxes(300, 1), "gridded"),
+        (random_boxes(300, 2), "random"),
+    ] {
         let lines = hard_lines(&bounds, 400);
         assert!(lines.iter().filter(|l| l.is_axis_parallel()).count() > 100);
         for strategy in Strategy::ALL {
             for stop in STOPS {
                 let tree = tree(&bounds, strategy, stop);
                 let by_boxes = brute_force(&tree, &lines);
-                assert_eq!(plain(&tree, &lines), by_boxes, "plain, {name} {strategy} {stop}");
-                assert_eq!(streamed(&tree, &lines), by_boxes, "streams, {name} {strategy} {stop}");
+                assert_eq!(
+                    plain(&tree, &lines),
+                    by_boxes,
+                    "plain, {name} {strategy} {stop}"
+                );
+                assert_eq!(
+                    streamed(&tree, &lines),
+                    by_boxes,
+                    "streams, {name} {strategy} {stop}"
+                );
             }
         }
     }
@@ -75,7 +86,10 @@ fn flat_worlds_and_flat_cells_count_too() {
     let tree = tree(&bounds, Strategy::Sah, "objects:1");
     let p = predict(&tree);
     assert!((p.n_b - 1.0).abs() < 1e-12, "the leaves tile the plane");
-    let lines = SurfaceLines { world: tree.world, seed: 1 };
+    let lines = SurfaceLines {
+        world: tree.world,
+        seed: 1,
+    };
     let lines: Vec<Line> = lines.range(0..20_000).collect();
     let counts = streamed(&tree, &lines);
     counts.check(&tree).unwrap();
@@ -88,7 +102,10 @@ fn flat_worlds_and_flat_cells_count_too() {
 fn identities_hold_and_a_dropped_line_breaks_them() {
     let bounds = random_boxes(500, 4);
     let tree = tree(&bounds, Strategy::Sah, "cost-gain");
-    let lines = SurfaceLines { world: tree.world, seed: 2 };
+    let lines = SurfaceLines {
+        world: tree.world,
+        seed: 2,
+    };
     let lines: Vec<Line> = lines.range(0..2000).collect();
     let counts = plain(&tree, &lines);
     counts.check(&tree).unwrap();
@@ -111,10 +128,16 @@ fn identities_hold_and_a_dropped_line_breaks_them() {
 fn counts_do_not_depend_on_threads() {
     let bounds = random_boxes(400, 5);
     let tree = tree(&bounds, Strategy::SahCyclic, "objects:2:16");
-    let lines = SurfaceLines { world: tree.world, seed: 3 };
+    let lines = SurfaceLines {
+        world: tree.world,
+        seed: 3,
+    };
     let n = 3 * (1 << 17) + 1234;
     let with = |threads: usize| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let pool = rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .unwrap();
         pool.install(|| count_lines(&tree, n, |range| lines.range(range), |_| ()))
     };
     let one = with(1);
@@ -130,7 +153,12 @@ fn counts_do_not_depend_on_threads() {
 fn prediction_and_count_share_nothing_but_the_tree() {
     let bounds = random_boxes(300, 6);
     let tree = tree(&bounds, Strategy::Sah, "cost-gain");
-    let lines: Vec<Line> = SurfaceLines { world: tree.world, seed: 4 }.range(0..1000).collect();
+    let lines: Vec<Line> = SurfaceLines {
+        world: tree.world,
+        seed: 4,
+    }
+    .range(0..1000)
+    .collect();
     let (predicted, counted) = (predict(&tree), plain(&tree, &lines));
 
     let mut wrong_boxes = tree.clone();
@@ -153,9 +181,16 @@ fn a_complete_grid_has_the_known_costs() {
     let cube = sahlab::geom::Aabb::new(glam::DVec3::ZERO, glam::DVec3::ONE);
     for k in 0..5 {
         for bounds in [vec![cube], random_boxes(50, 7)] {
-            let bounds: Vec<_> = bounds.iter().map(|b| sahlab::geom::Aabb::new(b.lo, b.hi.min(cube.hi))).collect();
+            let bounds: Vec<_> = bounds
+                .iter()
+                .map(|b| sahlab::geom::Aabb::new(b.lo, b.hi.min(cube.hi)))
+                .collect();
             let bounds: Vec<_> = bounds.into_iter().filter(|b| b.is_valid()).collect();
-            let tree = sahlab::kd::build(&bounds, cube, &common::rules(Strategy::SpatialMedian, &format!("depth:{}", 3 * k)));
+            let tree = sahlab::kd::build(
+                &bounds,
+                cube,
+                &common::rules(Strategy::SpatialMedian, &format!("depth:{}", 3 * k)),
+            );
             let p = predict(&tree);
             assert!((p.n_b - f64::from(1 << k)).abs() < 1e-9);
             assert!((p.n_k - 4.0 * f64::from((1 << k) - 1)).abs() < 1e-9);

@@ -19,7 +19,11 @@ fn of_law(law: LineLaw, lines: u64) -> SamplerChecks {
 }
 
 fn show(name: &str, checks: &SamplerChecks) {
-    let values: Vec<String> = checks.values().iter().map(|p| format!("{p:9.2e}")).collect();
+    let values: Vec<String> = checks
+        .values()
+        .iter()
+        .map(|p| format!("{p:9.2e}"))
+        .collect();
     println!("{name:>20}  {}", values.join(" "));
 }
 
@@ -27,7 +31,9 @@ fn show(name: &str, checks: &SamplerChecks) {
 #[test]
 fn exact_laws_pass() {
     let world = root();
-    let lines: Vec<_> = (SurfaceLines { world, seed: SEED }).range(0..LINES).collect();
+    let lines: Vec<_> = (SurfaceLines { world, seed: SEED })
+        .range(0..LINES)
+        .collect();
     let ours = check_sampler(&world, SEED, LINES, |i| (lines[i as usize], Span::FULL));
     show("the study's lines", &ours);
     assert!(ours.values().iter().all(|&p| p >= 1e-4));
@@ -43,7 +49,11 @@ fn every_wrong_law_is_caught() {
     for law in LineLaw::WRONG {
         let checks = of_law(law, LINES);
         show(law.name(), &checks);
-        assert!(checks.values().iter().any(|&p| p < 1e-6), "{} passed", law.name());
+        assert!(
+            checks.values().iter().any(|&p| p < 1e-6),
+            "{} passed",
+            law.name()
+        );
     }
 }
 
@@ -64,7 +74,9 @@ fn the_law_holds_for_any_box() {
         (DVec3::ZERO, DVec3::new(100.0, 1.0, 1.0)),
     ] {
         let world = Aabb::new(lo, lo + extent);
-        let lines: Vec<_> = (SurfaceLines { world, seed: 1 }).range(0..1 << 17).collect();
+        let lines: Vec<_> = (SurfaceLines { world, seed: 1 })
+            .range(0..1 << 17)
+            .collect();
         let checks = check_sampler(&world, 1, 1 << 17, |i| (lines[i as usize], Span::FULL));
         show(&format!("{extent}"), &checks);
         assert!(checks.values().iter().all(|&p| p >= 1e-5));

@@ -19,7 +19,11 @@ pub fn audit(tree: &Tree, bounds: &[Aabb]) -> Result<(), Vec<String>> {
         audit.boxes();
         audit.references();
     }
-    if audit.faults.is_empty() { Ok(()) } else { Err(audit.faults) }
+    if audit.faults.is_empty() {
+        Ok(())
+    } else {
+        Err(audit.faults)
+    }
 }
 
 struct Audit<'a> {
@@ -50,7 +54,10 @@ impl Audit<'_> {
             if let NodeKind::Inner { left, .. } = node.kind() {
                 let left = left as usize;
                 if left <= i || left + 1 >= n {
-                    self.fault(format!("node {i}: children {left} and {}, of {n} nodes", left + 1));
+                    self.fault(format!(
+                        "node {i}: children {left} and {}, of {n} nodes",
+                        left + 1
+                    ));
                     return false;
                 }
                 parents[left] += 1;
@@ -64,7 +71,10 @@ impl Audit<'_> {
         }
         let depth = self.tree.depths().into_iter().max().unwrap_or(0) as usize;
         if depth != self.tree.depth {
-            self.fault(format!("depth {depth}, but the tree says {}", self.tree.depth));
+            self.fault(format!(
+                "depth {depth}, but the tree says {}",
+                self.tree.depth
+            ));
         }
         self.faults.is_empty()
     }
@@ -73,7 +83,10 @@ impl Audit<'_> {
     fn boxes(&mut self) {
         let boxes = &self.tree.boxes;
         if boxes[0] != self.tree.world {
-            self.fault(format!("the root's box {:?} is not the world {:?}", boxes[0], self.tree.world));
+            self.fault(format!(
+                "the root's box {:?} is not the world {:?}",
+                boxes[0], self.tree.world
+            ));
         }
         for (i, node) in self.tree.nodes.iter().enumerate() {
             let NodeKind::Inner { axis, split, left } = node.kind() else {
@@ -81,13 +94,17 @@ impl Audit<'_> {
             };
             let parent = &boxes[i];
             if !(parent.lo[axis] < split && split < parent.hi[axis]) {
-                self.fault(format!("node {i}: plane {split} on axis {axis} is not inside {parent:?}"));
+                self.fault(format!(
+                    "node {i}: plane {split} on axis {axis} is not inside {parent:?}"
+                ));
             }
             let cut = parent.split(axis, split);
             for (child, wanted) in [(left, cut.0), (left + 1, cut.1)] {
                 let found = boxes[child as usize];
                 if found != wanted {
-                    self.fault(format!("node {child}: box {found:?}, but its parent's plane gives {wanted:?}"));
+                    self.fault(format!(
+                        "node {child}: box {found:?}, but its parent's plane gives {wanted:?}"
+                    ));
                 }
             }
         }
@@ -105,16 +122,25 @@ impl Audit<'_> {
         let mut end = 0;
         for (first, count) in ranges {
             if count > 0 && first != end {
-                self.fault(format!("references {end} to {first} belong to no leaf or to two"));
+                self.fault(format!(
+                    "references {end} to {first} belong to no leaf or to two"
+                ));
                 return;
             }
             end = end.max(first + count);
         }
         if end != tree.references.len() {
-            self.fault(format!("the leaves use {end} of {} references", tree.references.len()));
+            self.fault(format!(
+                "the leaves use {end} of {} references",
+                tree.references.len()
+            ));
             return;
         }
-        if let Some(&o) = tree.references.iter().find(|&&o| o as usize >= self.bounds.len()) {
+        if let Some(&o) = tree
+            .references
+            .iter()
+            .find(|&&o| o as usize >= self.bounds.len())
+        {
             self.fault(format!("reference to object {o} of {}", self.bounds.len()));
             return;
         }
@@ -128,9 +154,14 @@ impl Audit<'_> {
                     let mut found = tree.objects(first, count).to_vec();
                     found.sort_unstable();
                     if found != objects {
-                        let lost = objects.iter().filter(|o| found.binary_search(o).is_err()).count();
+                        let lost = objects
+                            .iter()
+                            .filter(|o| found.binary_search(o).is_err())
+                            .count();
                         let extra = found.len() + lost - objects.len();
-                        self.fault(format!("leaf {i}: {lost} references lost, {extra} too many"));
+                        self.fault(format!(
+                            "leaf {i}: {lost} references lost, {extra} too many"
+                        ));
                     }
                 }
                 NodeKind::Inner { axis, split, left } => {
@@ -166,8 +197,15 @@ impl Audit<'_> {
         // Children come after their parent: from the end, every list is complete when it is passed up.
         for i in (0..tree.nodes.len()).rev() {
             held[i] = match tree.nodes[i].kind() {
-                NodeKind::Leaf { first, count } => tree.objects(first, count).iter().copied().filter(flat).collect(),
-                NodeKind::Inner { left, .. } => [&held[left as usize][..], &held[left as usize + 1]].concat(),
+                NodeKind::Leaf { first, count } => tree
+                    .objects(first, count)
+                    .iter()
+                    .copied()
+                    .filter(flat)
+                    .collect(),
+                NodeKind::Inner { left, .. } => {
+                    [&held[left as usize][..], &held[left as usize + 1]].concat()
+                }
             };
             held[i].sort_unstable();
             held[i].dedup();

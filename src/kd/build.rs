@@ -30,7 +30,10 @@ pub struct Rules {
 /// If a box is not valid, lies outside `world`, or the tree would need 2^32 nodes or references.
 pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
     for (i, b) in bounds.iter().enumerate() {
-        assert!(b.is_valid() && world.contains(b), "box {i} is {b:?}, world {world:?}");
+        assert!(
+            b.is_valid() && world.contains(b),
+            "box {i} is {b:?}, world {world:?}"
+        );
     }
     let objects = u32::try_from(bounds.len()).expect("more than 2^32 objects");
     let mut builder = Builder {
@@ -109,7 +112,10 @@ impl Builder<'_> {
     fn make_leaf(&mut self, node: usize, depth: usize, region: Region) {
         let objects = &self.objects[region.objects..];
         let first = self.tree.references.len();
-        assert!(first + objects.len() <= u32::MAX as usize, "more than 2^32 references");
+        assert!(
+            first + objects.len() <= u32::MAX as usize,
+            "more than 2^32 references"
+        );
         self.tree.nodes[node] = Node::leaf(first as u32, objects.len() as u32);
         self.tree.references.extend_from_slice(objects);
         self.tree.depth = self.tree.depth.max(depth);
@@ -117,7 +123,11 @@ impl Builder<'_> {
 
     /// The plane to cut with, or `None` for a leaf.
     fn choose(&mut self, bounds: &Aabb, depth: usize, region: Region) -> Option<Split> {
-        let Rules { strategy, stop, cost } = *self.rules;
+        let Rules {
+            strategy,
+            stop,
+            cost,
+        } = *self.rules;
         let n = self.objects.len() - region.objects;
         let share = bounds.surface_area() / self.root_area;
         if depth >= self.depth_bound || stop.stops_at(n, share) {
@@ -137,14 +147,24 @@ impl Builder<'_> {
                 break;
             }
         }
-        let too_dear = |s: &Split| matches!(stop, StopRule::CostGain { .. }) && s.cost >= cost.leaf(n as f64);
+        let too_dear =
+            |s: &Split| matches!(stop, StopRule::CostGain { .. }) && s.cost >= cost.leaf(n as f64);
         best.filter(|s| !too_dear(s))
     }
 
     /// The strategy's cheapest plane on one axis.
-    fn cheapest(&mut self, bounds: &Aabb, axis: Axis, region: Region, positions: Positions) -> Option<Split> {
+    fn cheapest(
+        &mut self,
+        bounds: &Aabb,
+        axis: Axis,
+        region: Region,
+        positions: Positions,
+    ) -> Option<Split> {
         let spatial = 0.5 * bounds.lo[axis] + 0.5 * bounds.hi[axis];
-        let mut medians = || self.object_median(bounds, axis, region).map(|object| (spatial.min(object), spatial.max(object)));
+        let mut medians = || {
+            self.object_median(bounds, axis, region)
+                .map(|object| (spatial.min(object), spatial.max(object)))
+        };
         // `window`: object bounds in it are candidates; `extra`: further positions, ascending.
         let mut window = None;
         let extra = match positions {
@@ -188,7 +208,8 @@ impl Builder<'_> {
             0.5 * b.lo[axis].max(lo) + 0.5 * b.hi[axis].min(hi)
         };
         self.centres.clear();
-        self.centres.extend(self.objects[region.objects..].iter().map(clipped_centre));
+        self.centres
+            .extend(self.objects[region.objects..].iter().map(clipped_centre));
         let n = self.centres.len();
         if n == 0 {
             return None;
@@ -204,7 +225,12 @@ impl Builder<'_> {
     /// Sort the node's lists into the children's. Returns where the left child's begin, on top, and where the right
     /// child's, which take the node's own place, end.
     fn distribute(&mut self, split: &Split, region: Region) -> (Region, Region) {
-        let Split { axis, position: s, planar_left, .. } = *split;
+        let Split {
+            axis,
+            position: s,
+            planar_left,
+            ..
+        } = *split;
         for &object in &self.objects[region.objects..] {
             let b = &self.bounds[object as usize];
             let (left, right) = (b.lo[axis] < s, b.hi[axis] > s);
@@ -217,14 +243,17 @@ impl Builder<'_> {
         let sides = &self.sides;
         let mut top = Region::default();
         let mut kept = Region::default();
-        (top.objects, kept.objects) = spread(&mut self.objects, region.objects, |&object| sides[object as usize]);
+        (top.objects, kept.objects) = spread(&mut self.objects, region.objects, |&object| {
+            sides[object as usize]
+        });
         for k in 0..3 {
             let start = region.events[k];
             let events = &mut self.events[k];
             (top.events[k], kept.events[k]) = if k == axis {
                 // An event beyond the plane leaves the child's box: its object now reaches the face.
                 spread(events, start, |e| {
-                    let inside = u8::from(e.position <= s) * LEFT + u8::from(e.position >= s) * RIGHT;
+                    let inside =
+                        u8::from(e.position <= s) * LEFT + u8::from(e.position >= s) * RIGHT;
                     sides[e.object as usize] & inside
                 })
             } else {

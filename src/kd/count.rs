@@ -25,7 +25,11 @@ impl Counts {
 
     /// Add the counts of other lines on the same tree. Integers: the order does not matter.
     pub fn merge(mut self, other: &Self) -> Self {
-        assert_eq!(self.hits.len(), other.hits.len(), "counts of different trees");
+        assert_eq!(
+            self.hits.len(),
+            other.hits.len(),
+            "counts of different trees"
+        );
         self.lines += other.lines;
         self.work += other.work;
         for (mine, theirs) in self.hits.iter_mut().zip(&other.hits) {
@@ -56,7 +60,10 @@ impl Counts {
                 NodeKind::Inner { left, .. } => {
                     let (l, r) = (hits[left as usize], hits[left as usize + 1]);
                     if l.max(r) > hits[i] || hits[i] > l + r {
-                        return Err(format!("node {i}: {} hits, but its children have {l} and {r}", hits[i]));
+                        return Err(format!(
+                            "node {i}: {} hits, but its children have {l} and {r}",
+                            hits[i]
+                        ));
                     }
                     sums.inner += hits[i];
                     both += l + r - hits[i];
@@ -68,11 +75,17 @@ impl Counts {
             }
         }
         if sums != self.work {
-            return Err(format!("nodes add up to {sums:?}, lines did {:?}", self.work));
+            return Err(format!(
+                "nodes add up to {sums:?}, lines did {:?}",
+                self.work
+            ));
         }
         if self.work.leaves != self.lines + both {
             let wanted = self.lines + both;
-            return Err(format!("{} leaf visits, the children's hits ask for {wanted}", self.work.leaves));
+            return Err(format!(
+                "{} leaf visits, the children's hits ask for {wanted}",
+                self.work.leaves
+            ));
         }
         Ok(())
     }

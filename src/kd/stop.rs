@@ -101,7 +101,11 @@ impl FromStr for StopRule {
             Ok(d) if d <= MAX_DEPTH => Ok(d),
             _ => Err(wrong()),
         };
-        let parameter = if rule == "cost-gain" { None } else { Some(parts.next().ok_or_else(wrong)?) };
+        let parameter = if rule == "cost-gain" {
+            None
+        } else {
+            Some(parts.next().ok_or_else(wrong)?)
+        };
         let depth = parts.next().map(depth_of).transpose()?;
         if parts.next().is_some() {
             return Err(wrong());
@@ -142,17 +146,39 @@ mod tests {
 
     #[test]
     fn rules_read_back() {
-        for text in ["depth:9", "objects:2:16", "objects:1", "cost-k:0.5:20", "cost-k:3", "cost-gain", "cost-gain:40"] {
+        for text in [
+            "depth:9",
+            "objects:2:16",
+            "objects:1",
+            "cost-k:0.5:20",
+            "cost-k:3",
+            "cost-gain",
+            "cost-gain:40",
+        ] {
             let rule: StopRule = text.parse().expect(text);
             assert_eq!(rule.to_string(), text);
         }
-        for text in ["", "depth", "depth:129", "depth:3:4", "objects", "objects:0", "cost-k:-1", "cost-k:inf", "cost-gain:x", "objects:2:16:1"] {
+        for text in [
+            "",
+            "depth",
+            "depth:129",
+            "depth:3:4",
+            "objects",
+            "objects:0",
+            "cost-k:-1",
+            "cost-k:inf",
+            "cost-gain:x",
+            "objects:2:16:1",
+        ] {
             assert!(text.parse::<StopRule>().is_err(), "{text}");
         }
     }
 
     #[test]
     fn default_depths_are_pbrts() {
-        assert_eq!([1, 1_000, 10_000, 100_000].map(default_depth), [8, 20, 25, 29]);
+        assert_eq!(
+            [1, 1_000, 10_000, 100_000].map(default_depth),
+            [8, 20, 25, 29]
+        );
     }
 }

@@ -104,11 +104,15 @@ impl Strategy {
             Self::SpatialMedian => "1: middle of the node, cyclic axis (an octree's planes)".into(),
             Self::ObjectMedian => "2: median of the objects' centres, cyclic axis".into(),
             Self::Sah => "3: least cost over all axes and object bounds (the reference)".into(),
-            Self::SahBetweenMedians => "4: least cost over all axes, object bounds between the two medians".into(),
+            Self::SahBetweenMedians => {
+                "4: least cost over all axes, object bounds between the two medians".into()
+            }
             Self::SahCyclic => "5: least cost over the object bounds of one axis, cyclic".into(),
             Self::MedianMidpoint => "6: halfway between the two medians, cyclic axis".into(),
             Self::SahSamples(n) => {
-                format!("7: least cost over all axes, {n} planes spaced between the two medians (sah-samples:N for another N)")
+                format!(
+                    "7: least cost over all axes, {n} planes spaced between the two medians (sah-samples:N for another N)"
+                )
             }
             Self::SpatialMedianLongest => "1 on the longest axis".into(),
             Self::ObjectMedianLongest => "2 on the longest axis".into(),
@@ -164,13 +168,22 @@ impl FromStr for Strategy {
         if let Some(n) = text.strip_prefix("sah-samples:") {
             return match n.parse() {
                 Ok(n) if n > 0 => Ok(Self::SahSamples(n)),
-                _ => Err(format!("'{text}': the number of samples must be 1 to {}", u16::MAX)),
+                _ => Err(format!(
+                    "'{text}': the number of samples must be 1 to {}",
+                    u16::MAX
+                )),
             };
         }
-        Self::ALL.into_iter().find(|s| s.name() == text).ok_or_else(|| {
-            let names: Vec<String> = Self::ALL.iter().map(|s| s.name()).collect();
-            format!("unknown strategy '{text}', expected one of {}", names.join(", "))
-        })
+        Self::ALL
+            .into_iter()
+            .find(|s| s.name() == text)
+            .ok_or_else(|| {
+                let names: Vec<String> = Self::ALL.iter().map(|s| s.name()).collect();
+                format!(
+                    "unknown strategy '{text}', expected one of {}",
+                    names.join(", ")
+                )
+            })
     }
 }
 

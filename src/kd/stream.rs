@@ -38,7 +38,10 @@ where
     };
     (0..lines.div_ceil(BLOCK))
         .into_par_iter()
-        .fold(|| (Counts::new(tree), Streams::default(), Vec::new()), count_blocks)
+        .fold(
+            || (Counts::new(tree), Streams::default(), Vec::new()),
+            count_blocks,
+        )
         .map(|state| state.0)
         .reduce(|| Counts::new(tree), |a, b| a.merge(&b))
 }
@@ -72,7 +75,10 @@ impl Streams {
         for octant in 0..8 {
             self.lines.iter_mut().for_each(Vec::clear);
             self.entries.clear();
-            for line in lines.iter().filter(|l| !l.is_axis_parallel() && l.octant() == octant) {
+            for line in lines
+                .iter()
+                .filter(|l| !l.is_axis_parallel() && l.octant() == octant)
+            {
                 let Some(Span { t0, t1 }) = tree.world.clip(line, Span::FULL) else {
                     continue;
                 };
@@ -80,14 +86,26 @@ impl Streams {
                 for k in 0..3 {
                     self.lines[k].push([line.origin[k], line.inverse[k]]);
                 }
-                self.entries.push(Entry { t0, t1, line: number });
+                self.entries.push(Entry {
+                    t0,
+                    t1,
+                    line: number,
+                });
             }
             self.descend(tree, 0, octant, 0, self.entries.len(), counts);
         }
     }
 
     /// Count the list `start..start + n` at `node` and below it; the list's place is free afterwards.
-    fn descend(&mut self, tree: &Tree, node: usize, octant: usize, start: usize, n: usize, counts: &mut Counts) {
+    fn descend(
+        &mut self,
+        tree: &Tree,
+        node: usize,
+        octant: usize,
+        start: usize,
+        n: usize,
+        counts: &mut Counts,
+    ) {
         if n == 0 {
             return;
         }
@@ -125,9 +143,17 @@ impl Streams {
             let Entry { t0, t1, line } = list[i];
             let [origin, inverse] = lines[line as usize];
             let t = (split - origin) * inverse;
-            near[near_n] = Entry { t0, t1: t1.min(t), line };
+            near[near_n] = Entry {
+                t0,
+                t1: t1.min(t),
+                line,
+            };
             near_n += usize::from(t >= t0);
-            list[far_n] = Entry { t0: t0.max(t), t1, line };
+            list[far_n] = Entry {
+                t0: t0.max(t),
+                t1,
+                line,
+            };
             far_n += usize::from(t <= t1);
         }
         (near_n, far_n)

@@ -97,7 +97,11 @@ impl Sweep<'_> {
         };
 
         // Left of the first event: objects that start below the node are on the left, all are on the right.
-        let begun = self.events.iter().filter(|e| e.kind != EventKind::End).count();
+        let begun = self
+            .events
+            .iter()
+            .filter(|e| e.kind != EventKind::End)
+            .count();
         let mut left = self.n - begun;
         let mut right = self.n;
         let mut extra = extra.iter().copied().peekable();
@@ -108,7 +112,12 @@ impl Sweep<'_> {
                 offer(x, left, 0, right);
             }
             // All events at s: first what ends here, then what lies here, then what starts here.
-            let run = |events: &[Event], kind| events.iter().take_while(|e| e.position == s && e.kind == kind).count();
+            let run = |events: &[Event], kind| {
+                events
+                    .iter()
+                    .take_while(|e| e.position == s && e.kind == kind)
+                    .count()
+            };
             let ends = run(rest, EventKind::End);
             let planars = run(&rest[ends..], EventKind::Planar);
             let starts = run(&rest[ends + planars..], EventKind::Start);
@@ -156,7 +165,13 @@ impl<'a> Coster<'a> {
     /// The split at s with `planar` objects on its cheaper side (left on a tie), or `None` if it is no candidate.
     #[inline]
     fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
-        let Sweep { axis, n, cost, keep_useless, .. } = *self.sweep;
+        let Sweep {
+            axis,
+            n,
+            cost,
+            keep_useless,
+            ..
+        } = *self.sweep;
         let p_left = self.scale * (self.cut + (s - self.lo) * self.girth);
         let p_right = self.scale * (self.cut + (self.hi - s) * self.girth);
         let with = |l: usize, r: usize| {
@@ -164,7 +179,11 @@ impl<'a> Coster<'a> {
             (!useless).then(|| cost.split(p_left, l as f64, p_right, r as f64))
         };
         let on_left = with(left + planar, right);
-        let on_right = if planar > 0 { with(left, right + planar) } else { None };
+        let on_right = if planar > 0 {
+            with(left, right + planar)
+        } else {
+            None
+        };
         let (planar_left, cost) = match (on_left, on_right) {
             (Some(l), Some(r)) if r < l => (false, r),
             (Some(l), _) => (true, l),

@@ -139,7 +139,13 @@ pub fn nearest(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> 
 
 /// As [`nearest`], with a probe.
 #[inline]
-pub fn nearest_watched(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack, probe: impl Probe) -> Option<Hit> {
+pub fn nearest_watched(
+    tree: &Tree,
+    objects: &Objects,
+    ray: &Ray,
+    stack: &mut Stack,
+    probe: impl Probe,
+) -> Option<Hit> {
     let mut best: Option<Hit> = None;
     traverse::<Tracing>(tree, &ray.line, ray.span, stack, probe, |in_leaf| {
         for &object in in_leaf {

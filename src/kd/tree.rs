@@ -48,7 +48,10 @@ impl Node {
 
     /// A leaf.
     pub fn leaf(first: u32, count: u32) -> Self {
-        assert!(count < 1 << 30, "{count} references in one leaf, at most 2^30 - 1 fit");
+        assert!(
+            count < 1 << 30,
+            "{count} references in one leaf, at most 2^30 - 1 fit"
+        );
         Self {
             split: 0.0,
             tag: LEAF | count << 2,
@@ -144,6 +147,9 @@ mod tests {
             assert_eq!(Node::inner(axis, split, left).kind(), kind);
         }
         let (first, count) = (5, (1 << 30) - 1);
-        assert_eq!(Node::leaf(first, count).kind(), NodeKind::Leaf { first, count });
+        assert_eq!(
+            Node::leaf(first, count).kind(),
+            NodeKind::Leaf { first, count }
+        );
     }
 }

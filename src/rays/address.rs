@@ -2,9 +2,9 @@
 //!
 //! ChaCha8 is portable and seekable, so line i is a function of (seed, i) whatever the threads, blocks or order.
 
+use rand::Rng;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
-use rand::Rng;
 
 /// What random numbers are for: different purposes never share a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

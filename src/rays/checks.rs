@@ -28,11 +28,23 @@ pub struct SamplerChecks {
 
 impl SamplerChecks {
     /// The names, in the order of [`values`](Self::values).
-    pub const NAMES: [&'static str; 5] = ["boxes", "mean chord", "fourth chord moment", "directions", "triangles"];
+    pub const NAMES: [&'static str; 5] = [
+        "boxes",
+        "mean chord",
+        "fourth chord moment",
+        "directions",
+        "triangles",
+    ];
 
     /// The five p-values.
     pub fn values(&self) -> [f64; 5] {
-        [self.boxes, self.mean_chord, self.fourth_chord, self.directions, self.triangles]
+        [
+            self.boxes,
+            self.mean_chord,
+            self.fourth_chord,
+            self.directions,
+            self.triangles,
+        ]
     }
 
     /// The smallest of the five times five: the p-value of all together.
@@ -77,7 +89,8 @@ fn expected_moments(world: &Aabb) -> [f64; MOMENTS] {
     let share = world.face_areas() / world.face_areas().element_sum();
     let second = |i: usize| share[i] / 2.0 + (1.0 - share[i]) / 4.0;
     let fourth = |i: usize| share[i] / 3.0 + (1.0 - share[i]) / 8.0;
-    let mixed = |i: usize, j: usize| (share[i] + share[j]) / 12.0 + (1.0 - share[i] - share[j]) / 24.0;
+    let mixed =
+        |i: usize, j: usize| (share[i] + share[j]) / 12.0 + (1.0 - share[i] - share[j]) / 24.0;
     [
         0.0,
         0.0,
@@ -119,7 +132,8 @@ pub fn check_sampler(
     expected[..MOMENTS].copy_from_slice(&expected_moments(world));
     let diagonal = world.extent().length();
     expected[MOMENTS] = 4.0 * volume / area / diagonal;
-    expected[MOMENTS + 1] = 12.0 * volume * volume / (std::f64::consts::PI * area) / diagonal.powi(4);
+    expected[MOMENTS + 1] =
+        12.0 * volume * volume / (std::f64::consts::PI * area) / diagonal.powi(4);
 
     let chunk = |start: u64| {
         let mut sums = Sums {
@@ -129,10 +143,14 @@ pub fn check_sampler(
         };
         for i in start..lines.min(start + CHUNK) {
             let (line, span) = sample(i);
-            let inside = world.clip(&line, span).expect("a sampled line hits the box");
+            let inside = world
+                .clip(&line, span)
+                .expect("a sampled line hits the box");
             let chord = (inside.t1 - inside.t0) * line.direction.length() / diagonal;
             let square = chord * chord;
-            let values = moments(line.direction).into_iter().chain([chord, square * square]);
+            let values = moments(line.direction)
+                .into_iter()
+                .chain([chord, square * square]);
             for ((value, expected), sum) in values.zip(expected).zip(&mut sums.deviations) {
                 sum.0 += value - expected;
                 sum.1 += (value - expected) * (value - expected);
@@ -147,11 +165,20 @@ pub fn check_sampler(
         }
         sums
     };
-    let chunks: Vec<Sums> = (0..lines.div_ceil(CHUNK)).into_par_iter().map(|c| chunk(c * CHUNK)).collect();
+    let chunks: Vec<Sums> = (0..lines.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(|c| chunk(c * CHUNK))
+        .collect();
     let total = chunks.into_iter().reduce(|mut a, b| {
         a.boxes.iter_mut().zip(b.boxes).for_each(|(x, y)| *x += y);
-        a.triangles.iter_mut().zip(b.triangles).for_each(|(x, y)| *x += y);
-        a.deviations.iter_mut().zip(b.deviations).for_each(|(x, y)| *x = (x.0 + y.0, x.1 + y.1));
+        a.triangles
+            .iter_mut()
+            .zip(b.triangles)
+            .for_each(|(x, y)| *x += y);
+        a.deviations
+            .iter_mut()
+            .zip(b.deviations)
+            .for_each(|(x, y)| *x = (x.0 + y.0, x.1 + y.1));
         a
     });
     let total = total.expect("at least one line");
@@ -162,7 +189,8 @@ pub fn check_sampler(
         let variance = squares / n - mean * mean;
         normal_p(mean / (variance / n).sqrt().max(f64::MIN_POSITIVE))
     };
-    let worst = |ps: &mut dyn Iterator<Item = f64>, m: usize| (m as f64 * ps.fold(1.0, f64::min)).min(1.0);
+    let worst =
+        |ps: &mut dyn Iterator<Item = f64>, m: usize| (m as f64 * ps.fold(1.0, f64::min)).min(1.0);
     let tail = |(&hits, p): (&u64, f64)| binomial_tail(hits, lines, p);
     let box_p = boxes.iter().map(|b| b.surface_area() / area);
     let triangle_p = triangles.iter().map(|t| 2.0 * t.area() / area);
@@ -170,16 +198,28 @@ pub fn check_sampler(
         boxes: worst(&mut total.boxes.iter().zip(box_p).map(tail), BOXES),
         mean_chord: p_of(total.deviations[MOMENTS]),
         fourth_chord: p_of(total.deviations[MOMENTS + 1]),
-        directions: worst(&mut total.deviations[..MOMENTS].iter().map(|&d| p_of(d)), MOMENTS),
-        triangles: worst(&mut total.triangles.iter().zip(triangle_p).map(tail), TRIANGLES),
+        directions: worst(
+            &mut total.deviations[..MOMENTS].iter().map(|&d| p_of(d)),
+            MOMENTS,
+        ),
+        triangles: worst(
+            &mut total.triangles.iter().zip(triangle_p).map(tail),
+            TRIANGLES,
+        ),
     }
 }
 
 /// Boxes and triangles between uniform points of the world.
 fn targets(world: &Aabb, seed: u64) -> (Vec<Aabb>, Vec<Triangle>) {
     let mut rng = generator(seed, Purpose::Checks);
-    let mut point = || world.lo + DVec3::from_array(std::array::from_fn(|_| uniform(&mut rng))) * world.extent();
-    let boxes = (0..BOXES).map(|_| Aabb::around([point(), point()])).collect();
-    let triangles = (0..TRIANGLES).map(|_| Triangle([point(), point(), point()])).collect();
+    let mut point = || {
+        world.lo + DVec3::from_array(std::array::from_fn(|_| uniform(&mut rng))) * world.extent()
+    };
+    let boxes = (0..BOXES)
+        .map(|_| Aabb::around([point(), point()]))
+        .collect();
+    let triangles = (0..TRIANGLES)
+        .map(|_| Triangle([point(), point(), point()]))
+        .collect();
     (boxes, triangles)
 }

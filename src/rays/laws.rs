@@ -102,13 +102,17 @@ impl LineLaw {
     /// One line on what it does.
     pub fn description(self) -> &'static str {
         match self {
-            Self::Surface => "exact: face by area, uniform point, cosine-weighted direction (the study's own)",
+            Self::Surface => {
+                "exact: face by area, uniform point, cosine-weighted direction (the study's own)"
+            }
             Self::Disc => "exact: uniform direction, uniform point of the bounding sphere's disc",
             Self::SpherePoints => "exact: through two uniform points of the bounding sphere",
             Self::UniformHemisphere => "wrong: surface point, uniform instead of cosine hemisphere",
             Self::SphereHemisphere => "wrong: point of the bounding sphere, uniform hemisphere",
             Self::BoxChord => "wrong: through two uniform points of the box's surface",
-            Self::SphereToVolume => "wrong: from a sphere of twice the radius to a uniform point inside",
+            Self::SphereToVolume => {
+                "wrong: from a sphere of twice the radius to a uniform point inside"
+            }
             Self::VolumeLine => "wrong: through a uniform point inside, uniform direction",
             Self::VolumeChord => "wrong: through two uniform points inside",
             Self::VolumeRay => "wrong: ray from a uniform point inside (interior origins)",
@@ -163,7 +167,8 @@ impl LineLaw {
                 full(centre + radius * a, if d.dot(a) > 0.0 { -d } else { d })
             }
             Self::BoxChord => loop {
-                let ((a, face), (b, other)) = (surface_point(world, rng), surface_point(world, rng));
+                let ((a, face), (b, other)) =
+                    (surface_point(world, rng), surface_point(world, rng));
                 if face != other {
                     return full(a, b - a);
                 }
@@ -195,18 +200,26 @@ impl LineLaw {
             Self::DiscRadius => {
                 let direction = isotropic(rng);
                 let point = disc_point(direction, rng);
-                full(centre + radius * uniform(rng) * point.normalize(), direction)
+                full(
+                    centre + radius * uniform(rng) * point.normalize(),
+                    direction,
+                )
             }
             Self::SmallDisc => {
                 let direction = isotropic(rng);
-                full(centre + 0.9 * radius * disc_point(direction, rng), direction)
+                full(
+                    centre + 0.9 * radius * disc_point(direction, rng),
+                    direction,
+                )
             }
             Self::Stretched => {
                 let direction = (isotropic(rng) * DVec3::new(1.0, 1.0, 1.01)).normalize();
                 full(centre + radius * disc_point(direction, rng), direction)
             }
             Self::CubeDirections => {
-                let direction = DVec3::from_array(std::array::from_fn(|_| 2.0 * uniform(rng) - 1.0)).normalize();
+                let direction =
+                    DVec3::from_array(std::array::from_fn(|_| 2.0 * uniform(rng) - 1.0))
+                        .normalize();
                 full(centre + radius * disc_point(direction, rng), direction)
             }
             Self::AxesOnly => {

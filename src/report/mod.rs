@@ -1,1 +1,177 @@
-//! x
+//! Figures and tables of a finished run, from its files alone.
+//!
+//! [`read_run`] reads a data directory; [`write_plots`] and [`write_tables`] are functions of what it read. Nothing here
+//! knows of trees, scenes or lines: the only import from the rest is the row types of [`crate::study::records`].
+
+mod axis;
+mod canvas;
+mod cost;
+mod density;
+mod figure;
+mod figure3;
+#[cfg(test)]
+mod fixture;
+mod glyphs;
+mod legend;
+mod number;
+mod palette;
+mod panel;
+mod raster;
+mod read;
+pub mod screen;
+mod series;
+mod slopes;
+mod svg;
+mod table;
+mod tables;
+#[cfg(test)]
+mod tests;
+mod text;
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use crate::files::write_atomic;
+
+pub use figure::Figure;
+pub use read::{Run, read_run};
+pub use table::{Align, Cell, Column, Table};
+
+/// Resolution of the PNG files, in dots per inch.
+const DOTS_PER_INCH: f64 = 216.0;
+
+/// Why a run could not be read or reported.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// A file cannot be opened or read.
+    #[error("{path}: cannot read", path = path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A row of a CSV file is not what it should be.
+    #[error("{path}, line {line}: {what}", path = path.display())]
+    Row {
+        /// The file.
+        path: PathBuf,
+        /// The line, the header being line 1.
+        line: u64,
+        /// What is wrong.
+        what: String,
+    },
+    /// A JSON file is not what it should be.
+    #[error("{path}: not a summary of a run", path = path.display())]
+    Json {
+        /// The file.
+        path: PathBuf,
+        /// Line, column and fault.
+        source: serde_json::Error,
+    },
+    /// There is nothing to draw or to print.
+    #[error("{what}")]
+    Empty {
+        /// What is missing, and where.
+        what: String,
+    },
+    /// The tables would land on the data they are made from.
+    #[error("{path}: holds the data of the run, which cells.csv would overwrite; name another directory", path = path.display())]
+    Overwrite {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// An image cannot be encoded.
+    #[error("{path}: cannot encode the image", path = path.display())]
+    Png {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: png::EncodingError,
+    },
+    /// A file cannot be written.
+    #[error("{path}: cannot write", path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+}
+
+/// Draws every figure of a run into `out`, as SVG and PNG; gives the files in the order written.
+///
+/// `figure3` needs the nodes of the summary's figure cell and is left out where the run kept no nodes.
+pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    let mut figures = Vec::new();
+    if let Some(nodes) = &run.nodes {
+        let cell = run.figure_cell()?;
+        let nodes: Vec<_> = nodes
+            .iter()
+            .filter(|node| node.cell == cell.cell)
+            .cloned()
+            .collect();
+        figures.push(("figure3", figure3::figure(cell, &nodes)?));
+    }
+    figures.push((
+        "slopes",
+        slopes::figure(&run.cells, run.summary.slope_within)?,
+    ));
+    figures.push(("predicted-vs-measured", cost::figure(&run.cells)?));
+    let mut files = Vec::new();
+    for (name, figure) in figures {
+        let path = out.join(format!("{name}.svg"));
+        write(&path, figure.svg().as_bytes())?;
+        files.push(path);
+        let path = out.join(format!("{name}.png"));
+        let bytes = figure
+            .png(DOTS_PER_INCH)
+            .map_err(|source| ReportError::Png {
+                path: path.clone(),
+                source,
+            })?;
+        write(&path, &bytes)?;
+        files.push(path);
+    }
+    Ok(files)
+}
+
+/// Writes every table of a run into `out`, as Markdown, LaTeX and CSV; gives the files in the order written.
+///
+/// `command` is what the files say made them.
+pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>, ReportError> {
+    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
+    if same(&run.dir, out) {
+        return Err(ReportError::Overwrite {
+            path: out.to_owned(),
+        });
+    }
+    let tables = [
+        ("cells", tables::cells(&run.cells)),
+        ("costs", tables::costs(&run.cells)),
+        ("strategies", tables::strategies(&run.cells)),
+        ("trees", tables::trees(&run.cells)),
+        ("verdicts", tables::verdicts(&run.summary)),
+    ];
+    let mut files = Vec::new();
+    for (name, table) in tables {
+        let texts = [
+            ("md", table.to_markdown(command)),
+            ("tex", table.to_latex(command)),
+            ("csv", table.to_csv()),
+        ];
+        for (extension, text) in texts {
+            let path = out.join(format!("{name}.{extension}"));
+            write(&path, text.as_bytes())?;
+            files.push(path);
+        }
+    }
+    Ok(files)
+}
+
+fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {
+    write_atomic(path, bytes).map_err(|source| ReportError::Write {
+        path: path.to_owned(),
+        source,
+    })
+}

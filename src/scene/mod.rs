@@ -1,6 +1,28 @@
 //! What is in the world: procedural scenes and scenes read from files.
+//!
+//! A scene is named by one word: `simple:NAME[:N]` (made here, after the kinds of scene that MacDonald & Booth tried),
+//! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), or the path of a mesh. The same word gives the same bits
+//! on every machine: only + - * / and square roots, `libm`, and random numbers from a fixed seed are used.
 
-use crate::geom::{Aabb, Objects};
+mod error;
+mod mesh;
+mod obj;
+mod off;
+mod ply;
+mod random;
+mod simple;
+mod spd;
+
+use crate::geom::{Aabb, Objects, Polygon, Triangle};
+
+pub use error::SceneError;
+use random::Random;
+
+/// The file name extensions that can be read.
+pub const EXTENSIONS: [&str; 3] = ["obj", "ply", "off"];
+
+/// The largest number of objects of a scene.
+pub const MAX_OBJECTS: usize = (1 << 27) - 1;
 
 /// A named set of objects. Never empty.
 #[derive(Clone, Debug)]
@@ -15,4 +37,379 @@ pub struct Scene {
     pub world: Aabb,
     /// What a user should know of how it was read, e.g. degenerate triangles that can never be hit.
     pub notes: Vec<String>,
+}
+
+/// A procedural scene: how it is called, what it is, and how to make it.
+struct Recipe {
+    /// What stands before the colon.
+    group: &'static str,
+    /// What stands after it.
+    name: &'static str,
+    /// One line for a list of scenes.
+    about: &'static str,
+    /// The size taken when none is given.
+    size: usize,
+    /// Smallest and largest size.
+    sizes: [usize; 2],
+    /// Makes the objects of a size, with random numbers seeded by name and size.
+    make: fn(usize, Random) -> Objects,
+}
+
+impl Scene {
+    /// Checks the objects and computes their boxes; adds a note on objects without area to `notes`.
+    pub fn new(
+        name: impl Into<String>,
+        objects: Objects,
+        mut notes: Vec<String>,
+    ) -> Result<Self, SceneError> {
+        let name = name.into();
+        if objects.is_empty() {
+            return Err(SceneError::Empty { name });
+        }
+        if objects.len() > MAX_OBJECTS {
+            return Err(SceneError::TooMany {
+                name,
+                count: objects.len(),
+                most: MAX_OBJECTS,
+            });
+        }
+        check(&name, &objects)?;
+        let bounds = objects.bounds();
+        let world = bounds.iter().copied().fold(Aabb::EMPTY, Aabb::union);
+        let area = world.surface_area();
+        if !(area > 0.0 && area.is_finite()) {
+            return Err(SceneError::World { name, area });
+        }
+        notes.extend(degenerate(&objects));
+        Ok(Self {
+            name,
+            objects,
+            bounds,
+            world,
+            notes,
+        })
+    }
+
+    /// The scene of that name: `simple:NAME[:N]`, `spd:NAME[:SIZE]`, or a path ending in .obj, .ply or .off.
+    ///
+    /// A procedural scene's name always carries its size, so that one scene has one name.
+    pub fn load(spec: &str) -> Result<Self, SceneError> {
+        match spec.split_once(':') {
+            Some((group @ ("simple" | "spd"), rest)) => generate(spec, group, rest),
+            _ => read(spec),
+        }
+    }
+
+    /// How many objects of each kind there are, e.g. `7381 spheres, 1 polygon`.
+    pub fn counts(&self) -> String {
+        let o = &self.objects;
+        let kinds = [
+            (o.triangles.len(), "triangle"),
+            (o.spheres.len(), "sphere"),
+            (o.polygons.len(), "polygon"),
+        ];
+        let present: Vec<_> = kinds
+            .into_iter()
+            .filter(|&(n, _)| n > 0)
+            .map(|(n, kind)| plural(n, kind))
+            .collect();
+        present.join(", ")
+    }
+}
+
+/// The procedural scenes: what one types, and a line on what it is.
+pub fn catalogue() -> Vec<(String, String)> {
+    recipes()
+        .map(|r| {
+            let about = format!("{} (size {} if none is given)", r.about, r.size);
+            (r.spec(), about)
+        })
+        .collect()
+}
+
+impl Recipe {
+    fn spec(&self) -> String {
+        format!("{}:{}", self.group, self.name)
+    }
+}
+
+fn recipes() -> impl Iterator<Item = &'static Recipe> {
+    simple::RECIPES.iter().chain(&spd::RECIPES)
+}
+
+fn generate(spec: &str, group: &str, rest: &str) -> Result<Scene, SceneError> {
+    let (name, size) = match rest.split_once(':') {
+        Some((name, size)) => (name, Some(size)),
+        None => (rest, None),
+    };
+    let Some(recipe) = recipes().find(|r| r.group == group && r.name == name) else {
+        return Err(unknown(spec, "no such scene".into()));
+    };
+    let [least, most] = recipe.sizes;
+    let wrong_size = |wrong| SceneError::Size {
+        spec: spec.into(),
+        wrong,
+        name: recipe.spec(),
+        least,
+        most,
+    };
+    let size = match size {
+        None => recipe.size,
+        Some(text) => text
+            .parse()
+            .map_err(|_| wrong_size(format!("the size '{text}' is not a whole number")))?,
+    };
+    if size < least {
+        return Err(wrong_size(format!("the size {size} is too small")));
+    }
+    if size > most {
+        return Err(wrong_size(format!("the size {size} is too large")));
+    }
+    let name = format!("{}:{size}", recipe.spec());
+    let objects = (recipe.make)(size, Random::named(&name));
+    Scene::new(name, objects, Vec::new())
+}
+
+fn read(path: &str) -> Result<Scene, SceneError> {
+    let extension = std::path::Path::new(path)
+        .extension()
+        .map(|e| e.to_string_lossy().to_lowercase());
+    let parse = match extension.as_deref() {
+        Some("obj") => obj::parse,
+        Some("off") => off::parse,
+        Some("ply") => ply::parse,
+        Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
+        None => return Err(unknown(path, "no such scene".into())),
+    };
+    let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
+        path: path.into(),
+        source,
+    })?;
+    let (objects, notes) = parse(path, &bytes)?.into_parts();
+    Scene::new(path, objects, notes)
+}
+
+/// The error for a scene that does not exist, with the nearest name that does and all the others.
+fn unknown(spec: &str, wrong: String) -> SceneError {
+    let names: Vec<String> = recipes().map(Recipe::spec).collect();
+    let nearest = names
+        .iter()
+        .map(|name| (edits(spec.trim_end_matches(':'), name), name))
+        .min();
+    let hint = match nearest {
+        Some((distance, name)) if distance <= 3 => format!("did you mean {name}? "),
+        _ => String::new(),
+    };
+    let kinds = EXTENSIONS.map(|e| format!(".{e}")).join(", ");
+    SceneError::Unknown {
+        spec: spec.into(),
+        wrong,
+        right: format!(
+            "{hint}scenes are {}, and files ending in {kinds}",
+            names.join(", ")
+        ),
+    }
+}
+
+/// Least number of letters to insert, remove or replace to turn one word into the other (Levenshtein).
+fn edits(a: &str, b: &str) -> usize {
+    let b: Vec<char> = b.chars().collect();
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, x) in a.chars().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, y) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(x != *y);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
+        }
+    }
+    row[b.len()]
+}
+
+/// Refuses coordinates that are not finite and radii that are not positive.
+fn check(name: &str, objects: &Objects) -> Result<(), SceneError> {
+    let bad_triangle = objects
+        .triangles
+        .iter()
+        .position(|t| !t.0.iter().all(|p| p.is_finite()));
+    let bad_centre = objects.spheres.iter().position(|s| !s.centre.is_finite());
+    let bad_radius = objects
+        .spheres
+        .iter()
+        .position(|s| !(s.radius > 0.0 && s.radius.is_finite()));
+    let bad_polygon = objects
+        .polygons
+        .iter()
+        .position(|p| !p.corners().iter().all(|c| c.is_finite()));
+    let coordinate = (
+        "has a coordinate that is not finite",
+        "every coordinate must be a finite number",
+    );
+    let radius = (
+        "has a radius that is not a positive number",
+        "every radius must be finite and above zero",
+    );
+    let found = [
+        (bad_triangle, "triangle", coordinate),
+        (bad_centre, "sphere", coordinate),
+        (bad_radius, "sphere", radius),
+        (bad_polygon, "polygon", coordinate),
+    ];
+    for (number, kind, (wrong, right)) in found {
+        if let Some(number) = number {
+            return Err(SceneError::Object {
+                name: name.into(),
+                object: format!("{kind} {number}"),
+                wrong,
+                right,
+            });
+        }
+    }
+    Ok(())
+}
+
+/// A note on triangles and polygons without area, if there are any.
+fn degenerate(objects: &Objects) -> Option<String> {
+    let flat = |area: f64| area == 0.0;
+    let triangles = objects.triangles.iter().map(Triangle::area);
+    let polygons = objects.polygons.iter().map(Polygon::area);
+    let found = [
+        (triangles.filter(|&a| flat(a)).count(), "triangle"),
+        (polygons.filter(|&a| flat(a)).count(), "polygon"),
+    ];
+    let told: Vec<_> = found
+        .into_iter()
+        .filter(|&(n, _)| n > 0)
+        .map(|(n, kind)| plural(n, kind))
+        .collect();
+    (!told.is_empty()).then(|| format!("{} without area: kept, never hit", told.join(", ")))
+}
+
+/// A number with its noun.
+fn plural(n: usize, noun: &str) -> String {
+    let s = if n == 1 { "" } else { "s" };
+    format!("{n} {noun}{s}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Sphere;
+    use glam::DVec3;
+
+    fn one_triangle(corners: [[f64; 3]; 3]) -> Objects {
+        Objects {
+            triangles: vec![Triangle(corners.map(DVec3::from))],
+            ..Objects::default()
+        }
+    }
+
+    fn message(result: Result<Scene, SceneError>) -> String {
+        result.expect_err("an error").to_string()
+    }
+
+    #[test]
+    fn what_cannot_be_a_scene_is_refused() {
+        let empty = Scene::new("x", Objects::default(), Vec::new());
+        assert!(message(empty).starts_with("x: the scene is empty"));
+        for bad in [f64::NAN, f64::INFINITY] {
+            let t = one_triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, bad, 0.0]]);
+            let text = message(Scene::new("x", t, Vec::new()));
+            assert!(text.contains("triangle 0 has a coordinate"), "{text}");
+        }
+        // A line and a point have no surface; a coordinate of 1e200 gives too much of it.
+        for corners in [
+            [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
+            [[1.0; 3]; 3],
+            [[0.0; 3], [1e200, 0.0, 0.0], [0.0, 1e200, 0.0]],
+        ] {
+            let text = message(Scene::new("x", one_triangle(corners), Vec::new()));
+            assert!(text.contains("surface area"), "{text}");
+        }
+        for radius in [0.0, -1.0, f64::NAN] {
+            let objects = Objects {
+                spheres: vec![Sphere {
+                    centre: DVec3::ZERO,
+                    radius,
+                }],
+                ..Objects::default()
+            };
+            let text = message(Scene::new("x", objects, Vec::new()));
+            assert!(text.contains("sphere 0 has a radius"), "{text}");
+        }
+    }
+
+    #[test]
+    fn objects_without_area_are_kept_and_told() {
+        let mut objects = one_triangle([[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+        objects
+            .triangles
+            .push(Triangle([DVec3::ZERO, DVec3::X, 2.0 * DVec3::X]));
+        let scene = Scene::new("x", objects, vec!["first".into()]).expect("a scene");
+        assert_eq!(scene.bounds.len(), 2);
+        assert_eq!(
+            scene.notes,
+            ["first", "1 triangle without area: kept, never hit"]
+        );
+        assert_eq!(scene.counts(), "2 triangles");
+        assert_eq!(scene.world.hi, DVec3::new(2.0, 1.0, 0.0));
+    }
+
+    #[test]
+    fn every_scene_of_the_catalogue_loads_and_names_itself() {
+        let all = catalogue();
+        assert_eq!(all.len(), 9);
+        for (spec, about) in all {
+            let scene = Scene::load(&spec).expect("a scene of the catalogue");
+            assert!(scene.name.starts_with(&format!("{spec}:")), "{spec}");
+            let again = Scene::load(&scene.name).expect("the same scene");
+            assert_eq!(again.objects, scene.objects);
+            assert_eq!(again.name, scene.name);
+            assert!(scene.bounds.iter().all(|b| scene.world.contains(b)));
+            assert!(scene.notes.is_empty(), "{spec}: {:?}", scene.notes);
+            assert!(!about.is_empty());
+        }
+    }
+
+    #[test]
+    fn unknown_scenes_are_told_the_known_ones() {
+        let text = message(Scene::load("simple:unifrom"));
+        assert!(text.contains("did you mean simple:uniform?"), "{text}");
+        assert!(
+            text.contains("spd:tetra") && text.contains(".ply"),
+            "{text}"
+        );
+        assert!(message(Scene::load("spd:bals")).contains("did you mean spd:balls?"));
+        assert!(message(Scene::load("simple")).contains("simple: no such scene; scenes are"));
+        let text = message(Scene::load("room.stl"));
+        assert!(
+            text.starts_with("room.stl: cannot read .stl files"),
+            "{text}"
+        );
+        let text = message(Scene::load("no/such/file.obj"));
+        assert_eq!(text, "no/such/file.obj: cannot read the file");
+    }
+
+    #[test]
+    fn sizes_out_of_range_are_told_the_range() {
+        let text = message(Scene::load("spd:balls:9"));
+        assert_eq!(
+            text,
+            "spd:balls:9: the size 9 is too large; sizes of spd:balls run from 1 to 8"
+        );
+        let text = message(Scene::load("simple:soup:0"));
+        assert!(text.contains("the size 0 is too small"), "{text}");
+        for bad in ["", "x", "-1", "2.5", "3:4"] {
+            let text = message(Scene::load(&format!("spd:tetra:{bad}")));
+            assert!(text.contains(&format!("the size '{bad}' is not")), "{text}");
+        }
+    }
+
+    #[test]
+    fn edit_distance() {
+        assert_eq!(edits("", "abc"), 3);
+        assert_eq!(edits("kitten", "sitting"), 3);
+        assert_eq!(edits("same", "same"), 0);
+    }
 }

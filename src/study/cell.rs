@@ -80,13 +80,21 @@ pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult
     let scoring = Scoring::new(&tree, &prediction);
     let pilot = plan.lines.at_least().min(PILOT);
     let scored = score_lines(&tree, &scoring, pilot, |range| lines.range(range));
-    let covariance = scored.scores.covariance().expect("a pilot of at least two lines");
+    let covariance = scored
+        .scores
+        .covariance()
+        .expect("a pilot of at least two lines");
     let n = plan.lines.choose(covariance[WEIGHTED][WEIGHTED].sqrt());
     watcher.lines_chosen(n);
 
     // All lines through the streams, then the same check that any count must pass.
     let started = Instant::now();
-    let counts = count_lines(&tree, n, |range| lines.range(range), |done| watcher.counted(done));
+    let counts = count_lines(
+        &tree,
+        n,
+        |range| lines.range(range),
+        |done| watcher.counted(done),
+    );
     let count_s = started.elapsed().as_secs_f64();
     counts.check(&tree)?;
     check_streams(&tree, &lines, &scored.counts)?;
@@ -124,8 +132,15 @@ fn check_streams(tree: &Tree, lines: &SurfaceLines, plain: &Counts) -> Result<()
     if streamed == *plain {
         return Ok(());
     }
-    let differing = streamed.hits.iter().zip(&plain.hits).filter(|(a, b)| a != b).count();
-    Err(format!("line streams and plain traversal disagree on {differing} nodes"))
+    let differing = streamed
+        .hits
+        .iter()
+        .zip(&plain.hits)
+        .filter(|(a, b)| a != b)
+        .count();
+    Err(format!(
+        "line streams and plain traversal disagree on {differing} nodes"
+    ))
 }
 
 /// Everything known of a cell once it is counted.
@@ -165,21 +180,40 @@ impl Found<'_> {
     }
 
     fn record(&self, nodes: &[NodeRecord]) -> CellRecord {
-        let CellPlan { id, scene, rules, seed, .. } = *self.plan;
+        let CellPlan {
+            id,
+            scene,
+            rules,
+            seed,
+            ..
+        } = *self.plan;
         let Counts { lines, work, .. } = *self.counts;
         let n = lines as f64;
         let per_line = |count: u64| count as f64 / n;
 
         // Work: the counts of a line are independent of other lines'; C is a linear form of them.
         let cost = rules.cost;
-        let covariance = self.scored.work.covariance().expect("a pilot of at least two lines");
+        let covariance = self
+            .scored
+            .work
+            .covariance()
+            .expect("a pilot of at least two lines");
         let variance = |a: [f64; 3]| -> f64 {
             let terms = (0..9).map(|i| a[i / 3] * a[i % 3] * covariance[i]);
             terms.sum::<f64>().max(0.0)
         };
         let se = |a: [f64; 3]| (variance(a) / n).sqrt();
-        let (n_k, n_b, n_t) = (per_line(work.inner), per_line(work.leaves), per_line(work.tests));
-        let Prediction { n_k: p_k, n_b: p_b, n_t: p_t, .. } = *self.prediction;
+        let (n_k, n_b, n_t) = (
+            per_line(work.inner),
+            per_line(work.leaves),
+            per_line(work.tests),
+        );
+        let Prediction {
+            n_k: p_k,
+            n_b: p_b,
+            n_t: p_t,
+            ..
+        } = *self.prediction;
 
         let fit = self.fit(nodes);
         let tested = || nodes.iter().filter(|r| r.tail.is_some());
@@ -254,7 +288,11 @@ impl Found<'_> {
             y.push(r.hits as f64 / n as f64);
             weights.push(1.0 / (r.p * (1.0 - r.p)));
         }
-        let covariance = self.scored.scores.covariance().expect("a pilot of at least two lines");
+        let covariance = self
+            .scored
+            .scores
+            .covariance()
+            .expect("a pilot of at least two lines");
         let se = |score: usize| (covariance[score][score] / n as f64).sqrt();
 
         let weighted = weighted_least_squares(&p, 1, &y, &weights).ok();
@@ -274,12 +312,23 @@ impl Found<'_> {
         let pilot = self.scored.counts.lines;
         let hits = self.scoring.by_contrast(|i| self.counts.hits[i] as f64);
         let predicted = self.scoring.by_contrast(|i| self.prediction.p[i]);
-        let deviation: Vec<f64> = hits.iter().zip(predicted).map(|(h, p)| h / n as f64 - p).collect();
-        let contrast_covariance = self.scored.contrasts.covariance().expect("a pilot of at least two lines");
+        let deviation: Vec<f64> = hits
+            .iter()
+            .zip(predicted)
+            .map(|(h, p)| h / n as f64 - p)
+            .collect();
+        let contrast_covariance = self
+            .scored
+            .contrasts
+            .covariance()
+            .expect("a pilot of at least two lines");
         let test = hotelling(&deviation, &contrast_covariance, n, pilot);
         Fits {
             slope: weighted.map(|f| (f.coefficients[0], se(WEIGHTED))),
-            unexplained: ordinary.as_ref().and_then(|f| f.r_squared_uncentred).map(|r| (1.0 - r, expected)),
+            unexplained: ordinary
+                .as_ref()
+                .and_then(|f| f.r_squared_uncentred)
+                .map(|r| (1.0 - r, expected)),
             ordinary: ordinary.map(|f| (f.coefficients[0], se(ORDINARY))),
             free: free.map(|f| {
                 let (a, b) = (f.coefficients[0], f.coefficients[1]);

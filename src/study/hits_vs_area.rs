@@ -100,6 +100,7 @@ pub fn summarise(plan: &Plan, cells: &[CellRecord]) -> Summary {
         question: plan.question.clone(),
         seed: plan.seed,
         quick: plan.quick,
+        slope_within: plan.expect.slope_within,
         figure_scene: plan.figure.scene.clone(),
         figure_strategy: plan.figure.strategy.name(),
         verdicts: verdicts(plan, cells, &estimates),
@@ -119,7 +120,10 @@ fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Ve
     // Equivalence: not "not rejected", but proved close.
     let reach = |e: &&Estimate| (e.lo - 1.0).abs().max((e.hi - 1.0).abs());
     let slopes: Vec<&Estimate> = estimates.iter().filter(|e| e.name == "slope").collect();
-    let widest = slopes.iter().copied().max_by(|a, b| reach(a).total_cmp(&reach(b)));
+    let widest = slopes
+        .iter()
+        .copied()
+        .max_by(|a, b| reach(a).total_cmp(&reach(b)));
     let close = slopes.iter().filter(|e| reach(e) <= bound).count();
     let slope_within = widest.map(|w| {
         let message = format!(
@@ -137,16 +141,28 @@ fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Ve
     let simultaneous = |name: &str, what: &str, chosen: Vec<&Estimate>| {
         let held = chosen.iter().filter(covers).count();
         let missed = chosen.iter().find(|e| !covers(e));
-        let missed = missed.map_or(String::new(), |e| format!("; missed: {} of {}", e.name, place(e)));
-        let message = format!("{held} of {} simultaneous intervals (family {family} %) contain {what}{missed}", chosen.len());
+        let missed = missed.map_or(String::new(), |e| {
+            format!("; missed: {} of {}", e.name, place(e))
+        });
+        let message = format!(
+            "{held} of {} simultaneous intervals (family {family} %) contain {what}{missed}",
+            chosen.len()
+        );
         verdict(name, held == chosen.len(), message)
     };
-    let counts = estimates.iter().filter(|e| e.name != "slope" && e.name != "C").collect();
+    let counts = estimates
+        .iter()
+        .filter(|e| e.name != "slope" && e.name != "C")
+        .collect();
 
     // Gate: Holm over slope, smallest tail and Hotelling of all cells.
     let mut p_values = Vec::new();
     for r in cells {
-        for (test, p) in [("slope", r.slope_p), ("smallest tail", r.tail_p), ("contrasts", r.hotelling_p)] {
+        for (test, p) in [
+            ("slope", r.slope_p),
+            ("smallest tail", r.tail_p),
+            ("contrasts", r.hotelling_p),
+        ] {
             p_values.extend(p.map(|p| (p, test, r)));
         }
     }
@@ -170,7 +186,10 @@ fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Ve
     let identities = verdict(
         "identities",
         true,
-        format!("all integer identities held over {:.2e} visits; streams equal the plain traversal on every node", visits as f64),
+        format!(
+            "all integer identities held over {:.2e} visits; streams equal the plain traversal on every node",
+            visits as f64
+        ),
     );
     let mut all = vec![identities];
     all.extend(slope_within);

@@ -65,10 +65,15 @@ const MOST_LINES: u64 = 1 << 40;
 impl LineRule {
     /// Exactly so many lines.
     pub fn exactly(lines: u64) -> Result<Self, String> {
+        Self::for_error(1.0, lines, lines)
+    }
+
+    /// As many as a wanted error of the slope asks for, from `min` to `max`.
+    pub fn for_error(slope_error: f64, min: u64, max: u64) -> Result<Self, String> {
         let rule = Self {
-            slope_error: 1.0,
-            min: lines,
-            max: lines,
+            slope_error,
+            min,
+            max,
         };
         rule.check()?;
         Ok(rule)
@@ -92,13 +97,22 @@ impl LineRule {
 
     fn check(&self) -> Result<(), String> {
         if !(self.slope_error > 0.0 && self.slope_error <= 1.0) {
-            return Err(format!("lines.slope_error = {}, but it must be above 0 and at most 1", self.slope_error));
+            return Err(format!(
+                "lines.slope_error = {}, but it must be above 0 and at most 1",
+                self.slope_error
+            ));
         }
         if self.min < FEWEST_LINES {
-            return Err(format!("{} lines, but a cell needs at least {FEWEST_LINES} for its standard errors", self.min));
+            return Err(format!(
+                "{} lines, but a cell needs at least {FEWEST_LINES} for its standard errors",
+                self.min
+            ));
         }
         if self.max < self.min || self.max > MOST_LINES {
-            return Err(format!("lines.max = {}, but it must be lines.min to {MOST_LINES}", self.max));
+            return Err(format!(
+                "lines.max = {}, but it must be lines.min to {MOST_LINES}",
+                self.max
+            ));
         }
         Ok(())
     }
@@ -221,7 +235,12 @@ impl Plan {
     }
 
     /// Parse an experiment's text; `path` names it in errors, `name` its folders.
-    pub fn parse(text: &str, path: &str, name: &str, overrides: Overrides) -> Result<Self, PlanError> {
+    pub fn parse(
+        text: &str,
+        path: &str,
+        name: &str,
+        overrides: Overrides,
+    ) -> Result<Self, PlanError> {
         let at = |offset: usize, message: String| {
             let before = &text[..offset.min(text.len())];
             let line_start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -232,17 +251,28 @@ impl Plan {
                 message,
             }
         };
-        let syntax = |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), one_line(e.message()));
+        let syntax =
+            |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), one_line(e.message()));
         let kind = toml::from_str::<Header>(text).map_err(syntax)?.kind;
         if !KINDS.contains(&kind.get_ref().as_str()) {
-            let message = format!("unknown kind '{}', expected one of {}", kind.get_ref(), KINDS.join(", "));
+            let message = format!(
+                "unknown kind '{}', expected one of {}",
+                kind.get_ref(),
+                KINDS.join(", ")
+            );
             return Err(at(kind.span().start, message));
         }
         let file: File = toml::from_str(text).map_err(syntax)?;
         let quick = overrides.quick;
-        let (mut scenes, mut lines, mut figure, mut expect) = (file.scenes, file.lines, file.figure, file.expect);
+        let (mut scenes, mut lines, mut figure, mut expect) =
+            (file.scenes, file.lines, file.figure, file.expect);
         if quick {
-            (scenes, lines, figure, expect) = (file.quick.scenes, file.quick.lines, file.quick.figure, file.quick.expect);
+            (scenes, lines, figure, expect) = (
+                file.quick.scenes,
+                file.quick.lines,
+                file.quick.figure,
+                file.quick.expect,
+            );
         }
         let value = |message: String| PlanError::Value {
             path: path.into(),
@@ -283,17 +313,29 @@ impl Plan {
         if let Some(twice) = self.strategies.iter().find(|s| !seen.insert(**s)) {
             return Err(format!("strategy '{twice}' is named twice"));
         }
-        if !self.scenes.contains(&self.figure.scene) || !self.strategies.contains(&self.figure.strategy) {
+        if !self.scenes.contains(&self.figure.scene)
+            || !self.strategies.contains(&self.figure.strategy)
+        {
             let Figure { scene, strategy } = &self.figure;
-            return Err(format!("the figure's cell ({scene}, {strategy}) is not among the scenes and strategies"));
+            return Err(format!(
+                "the figure's cell ({scene}, {strategy}) is not among the scenes and strategies"
+            ));
         }
         let CostModel { c_k, c_b, c_t } = self.cost;
         if ![c_k, c_b, c_t].iter().all(|c| c.is_finite() && *c >= 0.0) || c_k + c_b + c_t == 0.0 {
-            return Err("the costs c_k, c_b, c_t must be finite, none negative, and not all 0".into());
+            return Err(
+                "the costs c_k, c_b, c_t must be finite, none negative, and not all 0".into(),
+            );
         }
-        let Expect { slope_within, family, gate } = self.expect;
+        let Expect {
+            slope_within,
+            family,
+            gate,
+        } = self.expect;
         if !(slope_within > 0.0 && (0.0..1.0).contains(&family) && (0.0..1.0).contains(&gate)) {
-            return Err("expect.slope_within must be above 0, expect.family and expect.gate 0 to 1".into());
+            return Err(
+                "expect.slope_within must be above 0, expect.family and expect.gate 0 to 1".into(),
+            );
         }
         self.lines.check()
     }

@@ -211,6 +211,8 @@ pub struct Summary {
     pub seed: u64,
     /// True when fewer lines and smaller scenes were used: no figure of it is to be published.
     pub quick: bool,
+    /// Slopes this near to 1 are what the run aims to show.
+    pub slope_within: f64,
     /// The scene whose nodes the main figure shows.
     pub figure_scene: String,
     /// The strategy whose nodes the main figure shows.

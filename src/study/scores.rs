@@ -45,7 +45,11 @@ impl Scoring {
         let p = &prediction.p;
         let included: Vec<bool> = p.iter().map(|&p| 0.0 < p && p < 1.0).collect();
         let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
-            p.iter().zip(&included).filter(|(_, i)| **i).map(|(&p, _)| term(p)).sum()
+            p.iter()
+                .zip(&included)
+                .filter(|(_, i)| **i)
+                .map(|(&p, _)| term(p))
+                .sum()
         };
         // Weights 1/(p(1-p)) from the theoretical p; weights from the data would bias the slope.
         let weight = |p: f64| 1.0 / (p * (1.0 - p));
@@ -54,14 +58,33 @@ impl Scoring {
         let total = sum(&weight);
         let centre = sum(&|p| weight(p) * p) / total;
         let spread = sum(&|p| weight(p) * (p - centre) * (p - centre));
-        let smallest = p.iter().zip(&included).filter(|(_, i)| **i).map(|(&p, _)| p).fold(1.0, f64::min);
-        let has_free_line = p.iter().zip(&included).any(|(&p, &i)| i && p > smallest * (1.0 + 1e-9));
+        let smallest = p
+            .iter()
+            .zip(&included)
+            .filter(|(_, i)| **i)
+            .map(|(&p, _)| p)
+            .fold(1.0, f64::min);
+        let has_free_line = p
+            .iter()
+            .zip(&included)
+            .any(|(&p, &i)| i && p > smallest * (1.0 + 1e-9));
         let score = |p: f64| {
-            let slope = if has_free_line { weight(p) * (p - centre) / spread } else { 0.0 };
-            let intercept = if has_free_line { weight(p) / total - centre * slope } else { 0.0 };
+            let slope = if has_free_line {
+                weight(p) * (p - centre) / spread
+            } else {
+                0.0
+            };
+            let intercept = if has_free_line {
+                weight(p) / total - centre * slope
+            } else {
+                0.0
+            };
             [weight(p) * p / weighted, p / ordinary, intercept, slope]
         };
-        let scores = p.iter().zip(&included).map(|(&p, &i)| if i { score(p) } else { [0.0; SCORES] });
+        let scores = p
+            .iter()
+            .zip(&included)
+            .map(|(&p, &i)| if i { score(p) } else { [0.0; SCORES] });
         Self {
             scores: scores.collect(),
             contrasts: contrasts(tree, p, &included),
@@ -157,14 +180,25 @@ where
             };
             let mut work = Work::default();
             scored.counts.lines += 1;
-            traverse_line(tree, &line, Span::FULL, &mut stack, (&mut scored.counts, (&mut work, &mut watch)));
+            traverse_line(
+                tree,
+                &line,
+                Span::FULL,
+                &mut stack,
+                (&mut scored.counts, (&mut work, &mut watch)),
+            );
             scored.scores.push(watch.scores);
-            scored.work.push(&[work.inner as u32, work.leaves as u32, work.tests as u32]);
+            scored
+                .work
+                .push(&[work.inner as u32, work.leaves as u32, work.tests as u32]);
             scored.contrasts.push(&watch.contrasts);
         }
         scored
     };
-    let chunks: Vec<Scored> = (0..lines.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
+    let chunks: Vec<Scored> = (0..lines.div_ceil(CHUNK))
+        .into_par_iter()
+        .map(chunk)
+        .collect();
     chunks.into_iter().fold(empty(), |mut all, part| {
         all.scores.merge(&part.scores);
         all.work.merge(&part.work);

@@ -58,7 +58,10 @@ impl Store {
     /// A finished cell of this very program, with its nodes if they are needed; `None` if it must be measured.
     pub fn finished(&self, id: &str, nodes: bool) -> Option<CellResult> {
         let text = fs::read_to_string(self.cell_path(id, ".json")).ok()?;
-        let Finished { revision, mut result } = serde_json::from_str(&text).ok()?;
+        let Finished {
+            revision,
+            mut result,
+        } = serde_json::from_str(&text).ok()?;
         if revision != crate::REVISION {
             return None;
         }
@@ -99,7 +102,11 @@ impl Store {
         self.write(self.folder.join("cells.csv"), &csv_bytes(&rows))?;
         let rows: Vec<_> = results.iter().flat_map(|r| &r.bins).collect();
         self.write(self.folder.join("bins.csv"), &csv_bytes(&rows))?;
-        let rows: Vec<_> = results.iter().filter_map(|r| r.nodes.as_ref()).flatten().collect();
+        let rows: Vec<_> = results
+            .iter()
+            .filter_map(|r| r.nodes.as_ref())
+            .flatten()
+            .collect();
         self.write(self.folder.join("nodes.csv"), &csv_bytes(&rows))?;
         let rows: Vec<_> = results.iter().filter_map(|r| r.timing.as_ref()).collect();
         self.write(self.folder.join("timings.csv"), &csv_bytes(&rows))?;

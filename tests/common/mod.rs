@@ -81,7 +81,13 @@ pub fn hard_lines(bounds: &[Aabb], n: usize) -> Vec<Line> {
 }
 
 /// Strategies and stop rules that property tests go over.
-pub const STOPS: [&str; 5] = ["objects:2:16", "objects:1", "cost-gain", "cost-k:0.5", "depth:6"];
+pub const STOPS: [&str; 5] = [
+    "objects:2:16",
+    "objects:1",
+    "cost-gain",
+    "cost-k:0.5",
+    "depth:6",
+];
 
 /// A rule as parsed.
 pub fn stop(text: &str) -> StopRule {

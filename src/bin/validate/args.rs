@@ -1,0 +1,156 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+/// How well does the surface area heuristic predict what ray tracing through a kd-tree really costs?
+///
+/// Without a command: the default study, about half a minute. It writes data/validate and plots/validate and ends with
+/// a one-screen summary.
+///
+/// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run.
+#[derive(Parser)]
+#[command(version, about, after_help = EXAMPLES)]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+    /// Flags of every command.
+    #[command(flatten)]
+    pub common: Common,
+}
+
+const EXAMPLES: &str = "Examples:
+  validate                                  the default study
+  validate run experiments/figure3.toml     every scene and strategy, real meshes
+  validate scene spd:balls:4                one scene, every strategy, and which to take
+  validate scene model.obj --lines 2^20     your own mesh
+  validate list strategies                  what can be named where";
+
+/// Flags of every command.
+#[derive(Args, Clone)]
+pub struct Common {
+    /// Folder that gets data/NAME and plots/NAME.
+    #[arg(short, long, global = true, default_value = ".", value_name = "DIR")]
+    pub out: PathBuf,
+    /// Seed of the lines, instead of the experiment's.
+    #[arg(long, global = true, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads that count (all cores if not given). Results do not depend on it.
+    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+    /// Lines a cell counts, instead of the experiment's rule; 1000000, 1e6 and 2^20 are understood.
+    #[arg(long, global = true, value_name = "N", value_parser = count)]
+    pub lines: Option<u64>,
+    /// Fewer lines and smaller scenes, as the experiment file says; nothing to publish.
+    #[arg(long, global = true)]
+    pub quick: bool,
+    /// Print the summary as JSON on standard output.
+    #[arg(long, global = true)]
+    pub json: bool,
+    /// No progress and no notes on standard error.
+    #[arg(long, global = true)]
+    pub quiet: bool,
+    /// Measure again what an earlier run has finished.
+    #[arg(long, global = true)]
+    pub force: bool,
+    /// Say what would be measured, and write nothing.
+    #[arg(long, global = true)]
+    pub dry_run: bool,
+}
+
+/// The commands.
+#[derive(Subcommand)]
+pub enum Command {
+    /// Run experiment files; what a stopped run had finished is kept.
+    Run {
+        /// Experiment files.
+        #[arg(required = true, value_name = "EXPERIMENT.toml")]
+        experiments: Vec<PathBuf>,
+    },
+    /// One scene: its objects, a tree per strategy, predicted and counted work, which strategy to take.
+    Scene {
+        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply or .off file.
+        #[arg(value_name = "SCENE")]
+        scene: String,
+        /// When nodes become leaves: depth:D, objects:N[:D], cost-k:K[:D] or cost-gain[:D].
+        #[arg(long, default_value = "cost-gain", value_name = "RULE")]
+        stop: sahlab::kd::StopRule,
+    },
+    /// What can be named: scenes, strategies, samplers, experiments.
+    List {
+        /// Only this list.
+        what: Option<Listed>,
+    },
+    /// Draw the pictures of a finished run again, from its data alone.
+    Plots {
+        /// Data folder of the run, e.g. data/validate.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Write the tables of a finished run again, from its data alone.
+    Tables {
+        /// Data folder of the run, e.g. data/validate.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Copy finished runs to data/published and plots/published and put their figures into README.md.
+    Publish {
+        /// Names of runs under data/; all runs already published if none is given (README.md only).
+        #[arg(value_name = "NAME")]
+        names: Vec<String>,
+    },
+}
+
+/// What `list` lists.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Listed {
+    /// Scenes.
+    Scenes,
+    /// Strategies.
+    Strategies,
+    /// Samplers of lines.
+    Samplers,
+    /// Experiments that come with the program.
+    Experiments,
+}
+
+/// A count: digits with underscores, 1e6, or 2^20.
+fn count(text: &str) -> Result<u64, String> {
+    let plain = text.replace('_', "");
+    let power = |base: u64, exponent: &str| base.checked_pow(exponent.parse().ok()?);
+    let parsed = if let Some((base, exponent)) = plain.split_once('^') {
+        base.parse().ok().and_then(|base| power(base, exponent))
+    } else if let Some((digits, exponent)) = plain.split_once(['e', 'E']) {
+        digits
+            .parse::<u64>()
+            .ok()
+            .zip(power(10, exponent))
+            .and_then(|(d, p)| d.checked_mul(p))
+    } else {
+        plain.parse().ok()
+    };
+    parsed.ok_or_else(|| "expected a whole number such as 1000000, 1e6 or 2^20".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn counts_are_understood() {
+        assert_eq!(count("1_000"), Ok(1000));
+        assert_eq!(count("1e6"), Ok(1_000_000));
+        assert_eq!(count("2^20"), Ok(1 << 20));
+        for wrong in ["", "-1", "1.5", "2^99", "1e99", "many"] {
+            assert!(count(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn the_command_line_is_consistent() {
+        use clap::CommandFactory;
+        Cli::command().debug_assert();
+    }
+}

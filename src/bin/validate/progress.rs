@@ -1,0 +1,78 @@
+//! Progress on standard error: a bar with the time left on a terminal, a line a minute elsewhere.
+
+use std::io::{self, IsTerminal, Write};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use sahlab::study::cell::Watcher;
+
+/// Progress over all lines of a run. How many a cell takes is known only after its pilot, so the length is a guess that
+/// gets better.
+pub struct Progress {
+    bar: ProgressBar,
+    /// Guess for a cell not yet begun.
+    expected: u64,
+    /// Where there is no terminal: when a line was last written.
+    spoken: Option<Mutex<Instant>>,
+}
+
+/// Between two lines where there is no terminal.
+const SILENCE: Duration = Duration::from_secs(60);
+
+impl Progress {
+    /// Progress over some cells of about so many lines; silent if told so.
+    pub fn new(cells: usize, expected: u64, quiet: bool) -> Self {
+        let terminal = io::stderr().is_terminal();
+        let bar = if quiet || !terminal {
+            ProgressBar::hidden()
+        } else {
+            ProgressBar::new(cells as u64 * expected)
+        };
+        bar.set_length(cells as u64 * expected);
+        let style = "{bar:30.cyan/dim} {percent:>3} %  {elapsed} gone, {eta} left  {msg}";
+        bar.set_style(ProgressStyle::with_template(style).expect("a valid template"));
+        bar.enable_steady_tick(Duration::from_millis(200));
+        Self {
+            bar,
+            expected,
+            spoken: (!quiet && !terminal).then(|| Mutex::new(Instant::now())),
+        }
+    }
+
+    /// A cell begins.
+    pub fn begin(&self, scene: &str, strategy: &str) {
+        self.bar.set_message(format!("{scene} {strategy}"));
+    }
+
+    /// A cell was found finished.
+    pub fn skip(&self) {
+        self.bar.dec_length(self.expected);
+    }
+
+    /// All is done.
+    pub fn finish(&self) {
+        self.bar.finish_and_clear();
+    }
+}
+
+impl Watcher for Progress {
+    fn lines_chosen(&self, lines: u64) {
+        let length = self.bar.length().unwrap_or(0);
+        self.bar
+            .set_length((length + lines).saturating_sub(self.expected));
+    }
+
+    fn counted(&self, lines: u64) {
+        self.bar.inc(lines);
+        let Some(spoken) = &self.spoken else {
+            return;
+        };
+        let mut last = spoken.lock().expect("no panic while writing");
+        if last.elapsed() >= SILENCE {
+            *last = Instant::now();
+            let share = 100 * self.bar.position() / self.bar.length().unwrap_or(1).max(1);
+            let _ = writeln!(io::stderr(), "{share} % of the lines counted");
+        }
+    }
+}

@@ -1,0 +1,164 @@
+//! Reading the data directory of a finished run.
+
+use std::fs::File;
+use std::io;
+use std::path::{Path, PathBuf};
+
+use serde::de::DeserializeOwned;
+
+use super::ReportError;
+use crate::study::records::{BinRecord, CellRecord, NodeRecord, Summary, TimingRecord};
+
+/// What a finished run left behind.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The directory it was read from.
+    pub dir: PathBuf,
+    /// `summary.json`.
+    pub summary: Summary,
+    /// `cells.csv`.
+    pub cells: Vec<CellRecord>,
+    /// `nodes.csv`, where the run kept nodes.
+    pub nodes: Option<Vec<NodeRecord>>,
+    /// `bins.csv`, where the run kept bins.
+    pub bins: Option<Vec<BinRecord>>,
+    /// `timings.csv`, where there is one.
+    pub timings: Option<Vec<TimingRecord>>,
+}
+
+impl Run {
+    /// The cell whose nodes the main figure shows.
+    pub fn figure_cell(&self) -> Result<&CellRecord, ReportError> {
+        let (scene, strategy) = (&self.summary.figure_scene, &self.summary.figure_strategy);
+        let cell = self
+            .cells
+            .iter()
+            .find(|cell| cell.scene == *scene && cell.strategy == *strategy);
+        cell.ok_or_else(|| ReportError::Empty {
+            what: format!(
+                "{}: no cell of scene {scene} with strategy {strategy}",
+                self.dir.join("cells.csv").display()
+            ),
+        })
+    }
+}
+
+/// Reads `summary.json`, `cells.csv` and, where there are any, `nodes.csv` and `bins.csv` of a directory.
+pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
+    let path = dir.join("summary.json");
+    let file = open(&path)?;
+    let summary =
+        serde_json::from_reader(io::BufReader::new(file)).map_err(|source| ReportError::Json {
+            path: path.clone(),
+            source,
+        })?;
+    let path = dir.join("cells.csv");
+    let cells = rows(&path, open(&path)?)?;
+    if cells.is_empty() {
+        return Err(ReportError::Empty {
+            what: format!("{}: no cells", path.display()),
+        });
+    }
+    Ok(Run {
+        dir: dir.to_owned(),
+        summary,
+        cells,
+        nodes: optional_rows(&dir.join("nodes.csv"))?,
+        bins: optional_rows(&dir.join("bins.csv"))?,
+        timings: optional_rows(&dir.join("timings.csv"))?,
+    })
+}
+
+fn open(path: &Path) -> Result<File, ReportError> {
+    File::open(path).map_err(|source| ReportError::Read {
+        path: path.to_owned(),
+        source,
+    })
+}
+
+fn optional_rows<T: DeserializeOwned>(path: &Path) -> Result<Option<Vec<T>>, ReportError> {
+    match File::open(path) {
+        Ok(file) => rows(path, file).map(Some),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(ReportError::Read {
+            path: path.to_owned(),
+            source,
+        }),
+    }
+}
+
+fn rows<T: DeserializeOwned>(path: &Path, file: File) -> Result<Vec<T>, ReportError> {
+    let mut reader = csv::Reader::from_reader(file);
+    let header = reader
+        .headers()
+        .map_err(|error| row_error(path, None, error))?
+        .clone();
+    reader
+        .deserialize()
+        .map(|row| row.map_err(|error| row_error(path, Some(&header), error)))
+        .collect()
+}
+
+/// Names the line, and the column by its heading.
+fn row_error(path: &Path, header: Option<&csv::StringRecord>, error: csv::Error) -> ReportError {
+    let line = error.position().map_or(1, csv::Position::line);
+    let what = match error.kind() {
+        csv::ErrorKind::Deserialize { err, .. } => {
+            let column = err.field().and_then(|field| header?.get(field as usize));
+            match column {
+                Some(column) => format!("column {column}: {}", err.kind()),
+                None => err.kind().to_string(),
+            }
+        }
+        csv::ErrorKind::UnequalLengths {
+            expected_len, len, ..
+        } => {
+            format!("{len} fields where the header has {expected_len}")
+        }
+        _ => error.to_string(),
+    };
+    ReportError::Row {
+        path: path.to_owned(),
+        line,
+        what,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::fs;
+
+    use super::*;
+    use crate::study::records::TimingRecord;
+
+    fn fault(text: &str) -> String {
+        let dir = tempfile::tempdir().unwrap();
+        let path = dir.path().join("timings.csv");
+        fs::write(&path, text).unwrap();
+        let error = rows::<TimingRecord>(&path, open(&path).unwrap())
+            .unwrap_err()
+            .to_string();
+        error.replace(&path.display().to_string(), "timings.csv")
+    }
+
+    #[test]
+    fn a_fault_names_file_line_and_column() {
+        let header = "cell,scene,strategy,build_s,count_s,threads,visits\n";
+        let good = "a,b,c,1,2,3,4\n";
+        assert_eq!(
+            fault(&format!("{header}{good}a,b,c,1,x,3,4\n")),
+            "timings.csv, line 3: column count_s: invalid float literal"
+        );
+        assert_eq!(
+            fault(&format!("{header}a,b,c\n")),
+            "timings.csv, line 2: 3 fields where the header has 7"
+        );
+        assert!(fault("cell,scene\na,b\n").starts_with("timings.csv, line 2: missing field"));
+    }
+
+    #[test]
+    fn a_missing_directory_is_named() {
+        let error = read_run(Path::new("no/such/run")).unwrap_err().to_string();
+        assert_eq!(error, "no/such/run/summary.json: cannot read");
+    }
+}

@@ -1,0 +1,338 @@
+//! Figures and tables as a whole: equal bytes, extremes, nothing off the page, files where they belong.
+
+use std::fs;
+use std::path::Path;
+
+use super::figure::{Figure, Form, Segment};
+use super::fixture::{cell, cells, nodes, summary};
+use super::table::{Cell, Column, Table};
+use super::{ReportError, Run, cost, figure3, read_run, screen, slopes, write_plots, write_tables};
+use crate::study::records::CellRecord;
+
+fn figure3_of(count: u64, least: f64) -> Figure {
+    let cell = cell("spd:balls:4", "sah", count);
+    let nodes = nodes(&cell, count, least);
+    figure3::figure(&cell, &nodes).unwrap()
+}
+
+/// Every point of every shape lies on the page.
+fn assert_on_page(figure: &Figure) {
+    let (width, height) = (figure.size.0 as f32, figure.size.1 as f32);
+    let check = |[x, y]: [f32; 2], reach: f32| {
+        let inside = x >= reach && y >= reach && x <= width - reach && y <= height - reach;
+        assert!(
+            inside,
+            "{x} {y} off a page of {width} {height}: {}",
+            figure.title
+        );
+    };
+    assert!(!figure.shapes.is_empty());
+    for shape in &figure.shapes {
+        match &shape.form {
+            Form::Disc(centre, radius) => check(*centre, *radius),
+            Form::Stroke(line, width) => line.iter().for_each(|&point| check(point, width / 2.0)),
+            Form::Fill(segments) => segments.iter().for_each(|segment| match *segment {
+                Segment::Move(to) | Segment::Line(to) => check(to, 0.0),
+                Segment::Quad(control, to) => {
+                    check(control, 0.0);
+                    check(to, 0.0);
+                }
+            }),
+        }
+    }
+}
+
+#[test]
+fn equal_rows_give_equal_bytes() {
+    for count in [601, 6001] {
+        let (a, b) = (figure3_of(count, 1e-6), figure3_of(count, 1e-6));
+        assert_eq!(a.svg(), b.svg());
+        assert_eq!(a.png(72.0).unwrap(), b.png(72.0).unwrap());
+    }
+}
+
+#[test]
+fn extremes_stay_on_the_page() {
+    for (count, least) in [
+        (1, 1.0),
+        (2, 0.5),
+        (3, 0.9),
+        (601, 1e-6),
+        (601, 1e-12),
+        (6001, 1e-7),
+    ] {
+        assert_on_page(&figure3_of(count, least));
+    }
+    for (scenes, strategies) in [(1, 1), (2, 1), (1, 3), (8, 5), (11, 11)] {
+        let cells = cells(scenes, strategies);
+        assert_on_page(&slopes::figure(&cells, 0.002).unwrap());
+        assert_on_page(&cost::figure(&cells).unwrap());
+    }
+}
+
+#[test]
+fn strange_rows_stay_on_the_page() {
+    let mut odd = cells(2, 2);
+    odd[0].scene = format!("{}/dragon.ply", "a-long-name".repeat(20));
+    odd[1].slope = Some(40.0);
+    odd[2].slope_se = Some(f64::NAN);
+    odd[2].c_counted = f64::INFINITY;
+    odd[3].n_k_predicted = 0.0;
+    odd[3].c_predicted = 0.0;
+    assert_on_page(&slopes::figure(&odd, 0.002).unwrap());
+    assert_on_page(&cost::figure(&odd).unwrap());
+
+    let mut nodes = nodes(&odd[0], 601, 1e-6);
+    nodes[3].hits = 0;
+    nodes[4].hits = odd[0].lines;
+    nodes[4].z = Some(1e4);
+    (nodes[5].area, nodes[5].p, nodes[5].hits, nodes[5].z) = (0.0, 0.0, 0, None);
+    assert_on_page(&figure3::figure(&odd[0], &nodes).unwrap());
+}
+
+#[test]
+fn nothing_to_draw_is_an_error_that_says_so() {
+    let cell = cell("spd:balls:4", "sah", 3);
+    let error = figure3::figure(&cell, &[]).unwrap_err().to_string();
+    assert_eq!(error, "cell spd:balls:4-sah: no nodes to draw");
+    let mut flat = nodes(&cell, 2, 0.5);
+    flat.iter_mut()
+        .for_each(|node| (node.area, node.p) = (0.0, 0.0));
+    let error = figure3::figure(&cell, &flat).unwrap_err().to_string();
+    assert_eq!(error, "cell spd:balls:4-sah: no node has an area");
+    assert_eq!(
+        slopes::figure(&[], 0.002).unwrap_err().to_string(),
+        "no cells to draw"
+    );
+}
+
+#[test]
+fn many_nodes_are_drawn_as_a_density() {
+    let discs = |figure: &Figure| {
+        let forms = figure.shapes.iter().map(|shape| &shape.form);
+        forms.filter(|form| matches!(form, Form::Disc(..))).count()
+    };
+    assert!(discs(&figure3_of(4999, 1e-6)) > 4999);
+    assert_eq!(discs(&figure3_of(5001, 1e-6)), 0);
+}
+
+#[test]
+fn a_png_has_size_and_resolution() {
+    let figure = Figure::draw("", 72.0, 36.0, |_| {});
+    let bytes = figure.png(216.0).unwrap();
+    let reader = png::Decoder::new(std::io::Cursor::new(bytes))
+        .read_info()
+        .unwrap();
+    let info = reader.info();
+    assert_eq!((info.width, info.height), (216, 108));
+    assert_eq!(
+        info.pixel_dims.map(|dims| (dims.xppu, dims.unit)),
+        Some((8504, png::Unit::Meter))
+    );
+}
+
+#[test]
+fn svg_text_is_escaped() {
+    let figure = Figure::draw("a < b & c", 10.0, 10.0, |_| {});
+    assert!(figure.svg().contains("<title>a &lt; b &amp; c</title>"));
+}
+
+fn sample() -> Table {
+    Table {
+        caption: "A caption.".to_owned(),
+        columns: vec![
+            Column::left("scene", "scene"),
+            Column::right("n_K counted", "n_k"),
+            Column::right("difference, %", "difference"),
+            Column::right("p", "p"),
+        ],
+        keys: 1,
+        rows: vec![
+            vec![
+                Cell::Text("a_b|50%".to_owned()),
+                Cell::Value(10.0021, 2),
+                Cell::Estimate(-0.0123, 0.045),
+                Cell::PValue(0.0),
+            ],
+            vec![
+                Cell::Text("c".to_owned()),
+                Cell::Count(4_194_304),
+                Cell::Missing,
+                Cell::PValue(0.25),
+            ],
+        ],
+    }
+}
+
+#[test]
+fn text_table() {
+    let expected = "\
+A caption.
+
+scene    n_K counted   difference, %          p
+───────  ───────────  ──────────────  ─────────
+a_b|50%        10.00  −0.012 ± 0.045  < 2.2e-16
+c          4,194,304               –      0.250
+";
+    assert_eq!(sample().to_text(100), expected);
+}
+
+#[test]
+fn a_text_table_too_wide_goes_on_below() {
+    let text = sample().to_text(30);
+    assert!(
+        text.lines().all(|line| line.chars().count() <= 30),
+        "{text}"
+    );
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.starts_with("scene"))
+            .count(),
+        3
+    );
+}
+
+#[test]
+fn markdown_table() {
+    let expected = "\
+<!-- generated by validate tables data/x, do not edit -->
+
+A caption.
+
+| scene    | n_K counted |  difference, % |         p |
+| :------- | ----------: | -------------: | --------: |
+| a_b\\|50% |       10.00 | −0.012 ± 0.045 | < 2.2e-16 |
+| c        |   4,194,304 |              – |     0.250 |
+";
+    assert_eq!(sample().to_markdown("validate tables data/x"), expected);
+}
+
+#[test]
+fn latex_table() {
+    let expected = "\
+% generated by validate tables data/x, do not edit; needs \\usepackage{booktabs}
+% A caption.
+\\begin{tabular}{lrrr}
+\\toprule
+scene & $n_K$ counted & difference, \\% & p \\\\
+\\midrule
+a\\_b|50\\% & 10.00 & $-$0.012 $\\pm$ 0.045 & $<$ 2.2e-16 \\\\
+c & 4,194,304 & -- & 0.250 \\\\
+\\bottomrule
+\\end{tabular}
+";
+    assert_eq!(sample().to_latex("validate tables data/x"), expected);
+}
+
+#[test]
+fn a_number_that_is_none_is_unknown() {
+    let mut table = sample();
+    table.rows.truncate(1);
+    table.rows[0][1] = Cell::Value(f64::NAN, 2);
+    table.rows[0][2] = Cell::Estimate(0.5, f64::NAN);
+    assert!(
+        table.to_csv().ends_with("a_b|50%,,,,0\n"),
+        "{}",
+        table.to_csv()
+    );
+    assert!(!table.to_text(100).contains("NaN"));
+}
+
+#[test]
+fn csv_table() {
+    let expected = "\
+scene,n_k,difference,difference_half99,p
+a_b|50%,10.0021,-0.0123,0.045,0
+c,4194304,,,0.25
+";
+    assert_eq!(sample().to_csv(), expected);
+}
+
+fn save(dir: &Path, cells: &[CellRecord], nodes_of: Option<&CellRecord>) {
+    let mut writer = csv::Writer::from_path(dir.join("cells.csv")).unwrap();
+    cells
+        .iter()
+        .for_each(|cell| writer.serialize(cell).unwrap());
+    writer.flush().unwrap();
+    if let Some(cell) = nodes_of {
+        let mut writer = csv::Writer::from_path(dir.join("nodes.csv")).unwrap();
+        nodes(cell, 31, 1e-3)
+            .iter()
+            .for_each(|node| writer.serialize(node).unwrap());
+        writer.flush().unwrap();
+    }
+    let summary = serde_json::to_string(&summary("spd:scene:1")).unwrap();
+    fs::write(dir.join("summary.json"), summary).unwrap();
+}
+
+fn names(dir: &Path) -> Vec<String> {
+    let entries = fs::read_dir(dir).unwrap();
+    let mut names: Vec<_> = entries
+        .map(|entry| entry.unwrap().file_name().into_string().unwrap())
+        .collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_run_becomes_figures_and_tables() {
+    let dir = tempfile::tempdir().unwrap();
+    let cells = cells(2, 3);
+    save(dir.path(), &cells, Some(&cells[3]));
+    let run = read_run(dir.path()).unwrap();
+    assert_eq!(run.cells, cells);
+    let out = dir.path().join("plots/test");
+    let mut written = write_plots(&run, &out).unwrap();
+    written.extend(write_tables(&run, &out, "a command").unwrap());
+    let mut written: Vec<_> = written
+        .iter()
+        .map(|path| path.file_name().unwrap().to_str().unwrap().to_owned())
+        .collect();
+    written.sort();
+    assert_eq!(
+        names(&out),
+        written,
+        "all files told, and no temporary one left"
+    );
+    assert_eq!(written.len(), 21);
+    assert!(
+        screen::study(&run)
+            .lines()
+            .all(|line| line.chars().count() <= 100)
+    );
+}
+
+#[test]
+fn the_figure_needs_its_nodes_only_where_nodes_were_kept() {
+    let dir = tempfile::tempdir().unwrap();
+    let cells = cells(2, 2);
+    save(dir.path(), &cells, None);
+    let run = read_run(dir.path()).unwrap();
+    let out = dir.path().join("out");
+    assert_eq!(write_plots(&run, &out).unwrap().len(), 4);
+    // The nodes of another cell do not make the figure.
+    save(dir.path(), &cells, Some(&cells[0]));
+    let error = write_plots(&read_run(dir.path()).unwrap(), &out)
+        .unwrap_err()
+        .to_string();
+    assert_eq!(error, "cell spd:scene:1-sah: no nodes to draw");
+    let lost = Run {
+        summary: summary("spd:lost"),
+        ..read_run(dir.path()).unwrap()
+    };
+    let error = write_plots(&lost, &out).unwrap_err().to_string();
+    assert!(
+        error.ends_with("cells.csv: no cell of scene spd:lost with strategy sah"),
+        "{error}"
+    );
+}
+
+#[test]
+fn tables_never_overwrite_the_data() {
+    let dir = tempfile::tempdir().unwrap();
+    save(dir.path(), &cells(1, 1), None);
+    let run = read_run(dir.path()).unwrap();
+    let error = write_tables(&run, &dir.path().join("."), "").unwrap_err();
+    assert!(matches!(error, ReportError::Overwrite { .. }));
+    assert_eq!(read_run(dir.path()).unwrap().cells, run.cells);
+}
