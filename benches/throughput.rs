@@ -21,6 +21,9 @@ const ROUNDS: usize = 7;
 /// Lines counted per round, in one block.
 const LINES: u64 = 1 << 17;
 
+/// A name and what to time.
+type Job<'a> = (&'a str, Box<dyn FnMut() + 'a>);
+
 fn main() {
     let scene = Scene::load("simple:soup:100000").expect("a procedural scene");
     let triangles = scene.bounds.len() as f64;
@@ -42,7 +45,7 @@ fn main() {
         let mut stack = Stack::default();
         let mut plain_counts = Counts::new(&tree);
         let mut stream_counts = Counts::new(&tree);
-        let mut jobs: Vec<(&str, Box<dyn FnMut() + '_>)> = vec![
+        let mut jobs: Vec<Job<'_>> = vec![
             (
                 "lines",
                 Box::new(|| {

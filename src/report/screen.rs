@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::number::{grouped, significant};
+use super::number::{counted, grouped, significant};
 use super::{Run, tables};
 use crate::study::records::CellRecord;
 
@@ -32,9 +32,9 @@ pub fn study(run: &Run) -> String {
 pub fn scene(run: &Run) -> String {
     let first = &run.cells[0];
     let mut text = format!(
-        "\n{}: {} objects, stop {}\n\n",
+        "\n{}: {}, stop {}\n\n",
         first.scene,
-        grouped(first.objects),
+        counted(first.objects, "object"),
         first.stop
     );
     text += &tables::of_scene(&run.cells).to_text(WIDTH);
@@ -42,40 +42,43 @@ pub fn scene(run: &Run) -> String {
     text + &verdicts(run)
 }
 
-/// The strategy to take: the least cost counted, with what separates it from the next.
+/// The strategy to take: the least cost counted, and how far the others are.
 fn advice(cells: &[CellRecord]) -> String {
     let mut by_cost: Vec<&CellRecord> = cells.iter().collect();
     by_cost.sort_by(|a, b| a.c_counted.total_cmp(&b.c_counted));
-    let best = by_cost[0];
-    let predicted = cells
-        .iter()
-        .min_by(|a, b| a.c_predicted.total_cmp(&b.c_predicted));
+    let (best, last) = (by_cost[0], by_cost[by_cost.len() - 1]);
+    let more = |cell: &CellRecord| 100.0 * (cell.c_counted / best.c_counted - 1.0);
+    if more(last) < LEAST_GAIN {
+        return "\nEvery strategy gives a tree of the same cost.\n".to_owned();
+    }
     let mut text = format!(
-        "\nTake {}: its lines cost {} each, counted",
+        "\nTake {}: its lines cost {} each, counted.",
         best.strategy,
         significant(best.c_counted, 4)
     );
     if let Some(next) = by_cost.get(1) {
-        let more = 100.0 * (next.c_counted / best.c_counted - 1.0);
         let _ = write!(
             text,
-            "; the next, {}, costs {} % more",
+            " {} costs {} % more, the worst, {}, {} % more.",
             next.strategy,
-            significant(more, 2)
+            significant(more(next), 2),
+            last.strategy,
+            significant(more(last), 2)
         );
     }
-    let agree = predicted.is_some_and(|p| p.strategy == best.strategy);
-    let areas = if agree {
-        "the same"
-    } else {
-        "another within the error"
-    };
+    let predicted = cells
+        .iter()
+        .min_by(|a, b| a.c_predicted.total_cmp(&b.c_predicted))
+        .map_or("", |cell| &cell.strategy);
     let _ = writeln!(
         text,
-        ".\nSurface areas alone pick {areas}. This holds for lines that never stop."
+        "\nSurface areas alone would have picked {predicted}. All this is for lines that never stop."
     );
     text
 }
+
+/// Per cent of cost below which trees count as equal.
+const LEAST_GAIN: f64 = 0.005;
 
 /// One line a verdict.
 fn verdicts(run: &Run) -> String {

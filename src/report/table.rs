@@ -131,24 +131,33 @@ impl Cell {
 }
 
 impl Table {
-    /// For a terminal of this many characters: columns that do not fit follow below, beside the same row names.
+    /// For a terminal of this many characters: columns that do not fit follow below, beside the same row names. Long
+    /// headings are folded at a hyphen.
     pub fn to_text(&self, width: usize) -> String {
         let shown: Vec<Vec<String>> = self
             .rows
             .iter()
-            .map(|row| row.iter().map(Cell::show).collect())
+            .map(|row| row.iter().map(|c| c.show().replace(" ± ", "±")).collect())
             .collect();
-        let widths = self.widths(&shown);
+        let headings: [Vec<String>; 2] = self
+            .columns
+            .iter()
+            .map(|column| fold_heading(&column.title))
+            .fold([Vec::new(), Vec::new()], |mut lines, [above, below]| {
+                lines[0].push(above);
+                lines[1].push(below);
+                lines
+            });
+        let texts = || headings.iter().chain(&shown);
+        let widest = |i: usize| texts().map(|row| row[i].chars().count()).max();
+        let widths: Vec<usize> = (0..self.columns.len()).filter_map(widest).collect();
         let mut out = format!("{}\n", fold(&self.caption, width));
         for block in self.blocks(&widths, width) {
             out.push('\n');
-            let titles: Vec<String> = self
-                .columns
-                .iter()
-                .map(|column| column.title.clone())
-                .collect();
             let rules: Vec<String> = widths.iter().map(|&width| "─".repeat(width)).collect();
-            for row in [&titles, &rules].into_iter().chain(&shown) {
+            let folded = headings[0].iter().any(|text| !text.is_empty());
+            let headings = headings[usize::from(!folded)..].iter();
+            for row in headings.chain([&rules]).chain(&shown) {
                 let cells = block.iter().map(|&i| self.pad(i, &row[i], widths[i]));
                 let line = cells.collect::<Vec<_>>().join("  ");
                 out.push_str(line.trim_end());
@@ -304,6 +313,16 @@ impl Table {
             Align::Left => format!("{text:<width$}"),
             Align::Right => format!("{text:>width$}"),
         }
+    }
+}
+
+/// A heading in two lines, the upper one empty if it is short or has no hyphen; split where the halves are most even.
+fn fold_heading(title: &str) -> [String; 2] {
+    const LONG: usize = 12;
+    let hyphens = title.match_indices('-').map(|(i, _)| i + 1);
+    match hyphens.min_by_key(|&i| i.abs_diff(title.len() - i)) {
+        Some(i) if title.len() > LONG => [title[..i].to_owned(), title[i..].to_owned()],
+        _ => [String::new(), title.to_owned()],
     }
 }
 

@@ -169,10 +169,10 @@ fn text_table() {
     let expected = "\
 A caption.
 
-scene    n_K counted   difference, %          p
-───────  ───────────  ──────────────  ─────────
-a_b|50%        10.00  −0.012 ± 0.045  < 2.2e-16
-c          4,194,304               –      0.250
+scene    n_K counted  difference, %          p
+───────  ───────────  ─────────────  ─────────
+a_b|50%        10.00   −0.012±0.045  < 2.2e-16
+c          4,194,304              –      0.250
 ";
     assert_eq!(sample().to_text(100), expected);
 }

@@ -15,16 +15,19 @@ use super::records::{BinRecord, CellRecord, NodeRecord, TimingRecord};
 use super::scores::{FREE, ORDINARY, Scored, Scoring, WEIGHTED, score_lines};
 
 /// What a cell is made of.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 pub struct CellPlan<'a> {
     /// Identity, from all parameters.
-    pub id: &'a str,
+    pub id: String,
     /// The objects.
     pub scene: &'a Scene,
     /// The tree.
     pub rules: Rules,
-    /// Seed of the lines.
+    /// Seed of the run.
     pub seed: u64,
+    /// Seed of the lines: the run's and the scene's, so that scenes meet independent lines and the trees of one scene the
+    /// same.
+    pub line_seed: u64,
     /// How many lines.
     pub lines: LineRule,
     /// Whether to keep a row for every node.
@@ -70,16 +73,31 @@ pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult
     let tree = build(&plan.scene.bounds, plan.scene.world, &plan.rules);
     let build_s = started.elapsed().as_secs_f64();
     audit(&tree, &plan.scene.bounds).map_err(|faults| faults.join("; "))?;
-    let prediction = predict(&tree);
+    let mut result = compare(plan, &tree, &predict(&tree), watcher)?;
+    if let Some(timing) = &mut result.timing {
+        timing.build_s = build_s;
+    }
+    Ok(result)
+}
 
+/// Count lines through a tree and hold the counts against a prediction.
+///
+/// # Errors
+/// As [`measure`], but for the audit.
+pub fn compare(
+    plan: &CellPlan<'_>,
+    tree: &Tree,
+    prediction: &Prediction,
+    watcher: &impl Watcher,
+) -> Result<CellResult, String> {
     // Pilot: the first lines one by one, for the standard errors and the number of lines.
     let lines = SurfaceLines {
         world: plan.scene.world,
-        seed: plan.seed,
+        seed: plan.line_seed,
     };
-    let scoring = Scoring::new(&tree, &prediction);
+    let scoring = Scoring::new(tree, prediction);
     let pilot = plan.lines.at_least().min(PILOT);
-    let scored = score_lines(&tree, &scoring, pilot, |range| lines.range(range));
+    let scored = score_lines(tree, &scoring, pilot, |range| lines.range(range));
     let covariance = scored
         .scores
         .covariance()
@@ -90,19 +108,19 @@ pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult
     // All lines through the streams, then the same check that any count must pass.
     let started = Instant::now();
     let counts = count_lines(
-        &tree,
+        tree,
         n,
         |range| lines.range(range),
         |done| watcher.counted(done),
     );
     let count_s = started.elapsed().as_secs_f64();
-    counts.check(&tree)?;
-    check_streams(&tree, &lines, &scored.counts)?;
+    counts.check(tree)?;
+    check_streams(tree, &lines, &scored.counts)?;
 
     let found = Found {
         plan,
-        tree: &tree,
-        prediction: &prediction,
+        tree,
+        prediction,
         scoring: &scoring,
         scored: &scored,
         counts: &counts,
@@ -112,10 +130,10 @@ pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult
         record: found.record(&nodes),
         bins: found.bins(&nodes),
         timing: Some(TimingRecord {
-            cell: plan.id.into(),
+            cell: plan.id.clone(),
             scene: plan.scene.name.clone(),
             strategy: plan.rules.strategy.name(),
-            build_s,
+            build_s: 0.0,
             count_s,
             threads: rayon::current_num_threads() as u64,
             visits: counts.visits(),
@@ -162,7 +180,7 @@ impl Found<'_> {
             let tested = self.scoring.included[i];
             let leaf = matches!(self.tree.nodes[i].kind(), NodeKind::Leaf { .. });
             NodeRecord {
-                cell: self.plan.id.into(),
+                cell: self.plan.id.clone(),
                 scene: self.plan.scene.name.clone(),
                 strategy: self.plan.rules.strategy.name(),
                 node: i as u64,
@@ -186,7 +204,7 @@ impl Found<'_> {
             rules,
             seed,
             ..
-        } = *self.plan;
+        } = self.plan;
         let Counts { lines, work, .. } = *self.counts;
         let n = lines as f64;
         let per_line = |count: u64| count as f64 / n;
@@ -219,12 +237,12 @@ impl Found<'_> {
         let tested = || nodes.iter().filter(|r| r.tail.is_some());
         let smallest_tail = tested().filter_map(|r| r.tail).reduce(f64::min);
         CellRecord {
-            cell: id.into(),
+            cell: id.clone(),
             scene: scene.name.clone(),
             objects: scene.bounds.len() as u64,
             strategy: rules.strategy.name(),
             stop: rules.stop.to_string(),
-            seed,
+            seed: *seed,
             lines,
             pilot_lines: self.scored.counts.lines,
             c_k: cost.c_k,

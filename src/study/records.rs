@@ -24,7 +24,7 @@ pub struct CellRecord {
     pub strategy: String,
     /// Stop rule, e.g. `objects:2:16`.
     pub stop: String,
-    /// Seed of the lines.
+    /// Seed of the run; the lines' own follows from it and the scene's boxes.
     pub seed: u64,
     /// Lines counted; each hits the scene's box.
     pub lines: u64,

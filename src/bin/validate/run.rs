@@ -7,7 +7,7 @@ use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
 use sahlab::study::Plan;
 use sahlab::study::cell::{CellResult, measure};
-use sahlab::study::hits_vs_area::{cell_plan, cells, summarise};
+use sahlab::study::hits_vs_area::{cells, summarise};
 use sahlab::study::store::Store;
 
 use crate::args::Common;
@@ -82,20 +82,18 @@ fn measure_cells(
     let progress = Progress::new(planned.len(), GUESS * plan.lines.at_least(), common.quiet);
     let mut results = Vec::new();
     let mut found = 0;
-    for (id, scene, rules) in &planned {
-        let cell = cell_plan(plan, id, scene, *rules);
+    for cell in &planned {
         if !common.force
-            && let Some(finished) = store.finished(id, cell.nodes)
+            && let Some(finished) = store.finished(&cell.id, cell.nodes)
         {
             progress.skip();
             found += 1;
             results.push(finished);
             continue;
         }
-        let strategy = rules.strategy.name();
-        progress.begin(&scene.name, &strategy);
-        let result =
-            measure(&cell, &progress).map_err(|e| anyhow!("{} {strategy}: {e}", scene.name))?;
+        let (scene, strategy) = (&cell.scene.name, cell.rules.strategy.name());
+        progress.begin(scene, &strategy);
+        let result = measure(cell, &progress).map_err(|e| anyhow!("{scene} {strategy}: {e}"))?;
         store.save(&result)?;
         results.push(result);
     }
@@ -115,12 +113,13 @@ fn describe(plan: &Plan, scenes: &[Scene]) -> String {
         "{}\n{}: stop {}, seed {}\n",
         plan.question, plan.name, plan.stop, plan.seed
     );
-    for (id, scene, rules) in cells(plan, scenes) {
+    for cell in cells(plan, scenes) {
         let line = format!(
-            "{id}  {:24} {:24} {:>9} objects, at least {} lines\n",
-            scene.name,
-            rules.strategy,
-            scene.bounds.len(),
+            "{}  {:24} {:24} {:>9} objects, at least {} lines\n",
+            cell.id,
+            cell.scene.name,
+            cell.rules.strategy,
+            cell.scene.bounds.len(),
             plan.lines.at_least()
         );
         text += &line;

@@ -1,0 +1,496 @@
+//! The command line as a user meets it: exit codes, messages, files.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::fs;
+use std::io::Read;
+use std::path::Path;
+use std::process::{Command as Process, Stdio};
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use tempfile::{TempDir, tempdir};
+
+fn validate(folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("validate").unwrap();
+    command.current_dir(folder);
+    command
+}
+
+/// A small experiment that passes.
+const GOOD: &str = r#"kind = "hits-vs-area"
+question = "Does it work?"
+seed = 5
+scenes = ["simple:uniform:200"]
+strategies = ["sah", "spatial-median"]
+stop = "objects:2:10"
+nodes = false
+cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
+lines = { slope_error = 0.1, min = 65536, max = 65536 }
+figure = { scene = "simple:uniform:200", strategy = "sah" }
+expect = { slope_within = 0.1, family = 0.01, gate = 0.001 }
+
+[quick]
+scenes = ["simple:uniform:100"]
+lines = { slope_error = 0.1, min = 4096, max = 4096 }
+figure = { scene = "simple:uniform:100", strategy = "sah" }
+expect = { slope_within = 0.2, family = 0.01, gate = 0.001 }
+"#;
+
+fn with_experiment(text: &str) -> TempDir {
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("e.toml"), text).unwrap();
+    folder
+}
+
+/// Every file below a folder with its bytes, in order; times left out.
+fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let mut all = Vec::new();
+    let mut open = vec![folder.to_path_buf()];
+    while let Some(here) = open.pop() {
+        for entry in fs::read_dir(here).unwrap() {
+            let path = entry.unwrap().path();
+            if path.is_dir() {
+                open.push(path);
+            } else if path.file_name().unwrap() != "timings.csv" {
+                let name = path.strip_prefix(folder).unwrap().display().to_string();
+                all.push((name, fs::read(path).unwrap()));
+            }
+        }
+    }
+    all.sort();
+    all
+}
+
+#[test]
+fn a_run_writes_data_tables_plots_and_a_summary() {
+    let folder = with_experiment(GOOD);
+    validate(folder.path())
+        .args(["run", "e.toml"])
+        .assert()
+        .code(0)
+        .stdout(
+            contains("Does it work?")
+                .and(contains("held    slope-within"))
+                .and(contains("sah")),
+        )
+        .stderr(predicate::str::is_empty());
+    for file in [
+        "data/e/cells.csv",
+        "data/e/bins.csv",
+        "data/e/nodes.csv",
+        "data/e/timings.csv",
+        "data/e/summary.json",
+        "data/e/tables/cells.md",
+        "data/e/tables/cells.tex",
+        "data/e/tables/costs.csv",
+        "plots/e/figure3.svg",
+        "plots/e/figure3.png",
+        "plots/e/slopes.svg",
+        "plots/e/predicted-vs-measured.png",
+    ] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+    assert!(
+        contents(folder.path())
+            .iter()
+            .all(|(name, _)| !name.ends_with(".part"))
+    );
+
+    // Every estimate is named and has its interval.
+    let summary = fs::read_to_string(folder.path().join("data/e/summary.json")).unwrap();
+    let summary: serde_json::Value = serde_json::from_str(&summary).unwrap();
+    let estimates = summary["estimates"].as_array().unwrap();
+    assert_eq!(estimates.len(), 2 * 5);
+    for e in estimates {
+        for key in ["name", "scene", "strategy"] {
+            assert!(e[key].is_string(), "{key}");
+        }
+        let [value, lo, hi] = ["value", "lo", "hi"].map(|key| e[key].as_f64().unwrap());
+        assert!(lo <= value && value <= hi && e["n"] == 65536);
+    }
+}
+
+#[test]
+fn data_is_byte_identical_for_any_threads_and_from_run_to_run() {
+    let folder = with_experiment(GOOD);
+    let run = |threads: &str, out: &str| {
+        let args = [
+            "run",
+            "e.toml",
+            "--quiet",
+            "--threads",
+            threads,
+            "--out",
+            out,
+            "--lines",
+            "300000",
+        ];
+        validate(folder.path()).args(args).assert().code(0);
+        contents(&folder.path().join(out).join("data"))
+    };
+    let one = run("1", "a");
+    assert!(one.len() > 10);
+    for (threads, out) in [("1", "b"), ("2", "c"), ("3", "d"), ("7", "e")] {
+        let again = run(threads, out);
+        assert!(one == again, "{threads} threads");
+    }
+}
+
+#[test]
+fn finished_cells_are_kept_unless_forced() {
+    let folder = with_experiment(GOOD);
+    let run = |more: &[&str]| {
+        validate(folder.path())
+            .args(["run", "e.toml"])
+            .args(more)
+            .assert()
+            .code(0)
+    };
+    let first = folder.path().join("data");
+    run(&[]);
+    let before = contents(&first);
+    run(&[]).stderr(contains("2 of 2 cells were finished by an earlier run"));
+    assert!(before == contents(&first));
+    run(&["--force"]).stderr(predicate::str::is_empty());
+    assert!(before == contents(&first));
+
+    // A stopped run: one cell is missing, the other is kept.
+    let cells = fs::read_dir(folder.path().join("data/e/cells")).unwrap();
+    let lost = cells
+        .map(|c| c.unwrap().path())
+        .find(|p| p.extension().unwrap() == "json")
+        .unwrap();
+    fs::remove_file(lost).unwrap();
+    run(&[]).stderr(contains("1 of 2 cells"));
+    assert!(before == contents(&first));
+    // Another seed is another cell, never the old one.
+    run(&["--seed", "6"]).stderr(predicate::str::is_empty());
+    assert!(before != contents(&first));
+}
+
+#[test]
+fn tables_and_plots_are_redone_from_data_alone() {
+    let folder = with_experiment(GOOD);
+    validate(folder.path())
+        .args(["run", "e.toml", "--quiet"])
+        .assert()
+        .code(0);
+    let plots = folder.path().join("plots");
+    let before = contents(&plots);
+    fs::remove_dir_all(&plots).unwrap();
+    fs::remove_dir_all(folder.path().join("data/e/cells")).unwrap();
+    fs::remove_dir_all(folder.path().join("data/e/tables")).unwrap();
+    validate(folder.path())
+        .args(["plots", "data/e"])
+        .assert()
+        .code(0)
+        .stdout(contains("figure3.svg"));
+    assert!(before == contents(&plots));
+    validate(folder.path())
+        .args(["tables", "data/e"])
+        .assert()
+        .code(0)
+        .stdout(contains("cells.tex"));
+}
+
+#[test]
+fn a_missed_expectation_writes_everything_and_exits_with_1() {
+    let folder = with_experiment(&GOOD.replace("slope_within = 0.1", "slope_within = 0.0001"));
+    validate(folder.path())
+        .args(["run", "e.toml"])
+        .assert()
+        .code(1)
+        .stdout(contains("MISSED  slope-within"));
+    assert!(folder.path().join("plots/e/figure3.png").is_file());
+}
+
+#[test]
+fn json_is_all_that_stdout_holds() {
+    let folder = with_experiment(GOOD);
+    let output = validate(folder.path())
+        .args(["run", "e.toml", "--json", "--quick"])
+        .output()
+        .unwrap();
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["quick"], true);
+    assert_eq!(summary["experiment"], "e");
+}
+
+#[test]
+fn a_dry_run_writes_nothing() {
+    let folder = with_experiment(GOOD);
+    validate(folder.path())
+        .args(["run", "e.toml", "--dry-run"])
+        .assert()
+        .code(0)
+        .stdout(contains("simple:uniform:200").and(contains("spatial-median")));
+    assert!(!folder.path().join("data").exists());
+}
+
+#[test]
+fn one_scene_says_which_strategy_to_take() {
+    let folder = tempdir().unwrap();
+    fs::write(
+        folder.path().join("two.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 9\nf 1 2 3\nf 2 3 4\n",
+    )
+    .unwrap();
+    validate(folder.path())
+        .args(["scene", "two.obj", "--lines", "2^14"])
+        .assert()
+        .code(predicate::in_iter([0, 1]))
+        .stdout(contains("two.obj: 2 objects").and(contains("sah-between-medians")));
+    assert!(folder.path().join("plots/scene-two/figure3.svg").is_file());
+    // A single object is a tree of one leaf: defined, nothing to fit.
+    fs::write(
+        folder.path().join("one.obj"),
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+    )
+    .unwrap();
+    validate(folder.path())
+        .args(["scene", "one.obj", "--lines", "2^14"])
+        .assert()
+        .code(0)
+        .stdout(contains("Every strategy gives a tree of the same cost"));
+    let cells = fs::read_to_string(folder.path().join("data/scene-one/cells.csv")).unwrap();
+    assert!(!cells.contains("NaN") && !cells.contains("inf"));
+}
+
+#[test]
+fn lists_and_help() {
+    let folder = tempdir().unwrap();
+    let list = |what: &str| {
+        validate(folder.path())
+            .args(["list", what])
+            .assert()
+            .code(0)
+    };
+    list("scenes").stdout(contains("simple:greedy").and(contains("spd:balls")));
+    list("strategies").stdout(contains("median-midpoint-longest"));
+    list("samplers").stdout(contains("axes-only"));
+    list("experiments").stdout(contains("experiments/figure3.toml"));
+    validate(folder.path())
+        .arg("list")
+        .assert()
+        .code(0)
+        .stdout(contains("strategies\n"));
+    for command in [
+        &["--help"][..],
+        &["run", "--help"],
+        &["scene", "--help"],
+        &["publish", "--help"],
+    ] {
+        validate(folder.path())
+            .args(command)
+            .assert()
+            .code(0)
+            .stdout(contains("--threads"));
+    }
+    validate(folder.path()).arg("--version").assert().code(0);
+}
+
+#[test]
+fn a_closed_pipe_is_no_panic() {
+    let folder = tempdir().unwrap();
+    let mut child = Process::new(assert_cmd::cargo::cargo_bin("validate"))
+        .arg("list")
+        .current_dir(folder.path())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let mut complaints = String::new();
+    child
+        .stderr
+        .take()
+        .unwrap()
+        .read_to_string(&mut complaints)
+        .unwrap();
+    assert!(child.wait().unwrap().success());
+    assert_eq!(complaints, "");
+}
+
+/// Bad input: exit code 2, one message with place, fault and remedy, and nothing written.
+fn refused(folder: &Path, args: &[&str], parts: &[&str]) {
+    let output = validate(folder).args(args).output().unwrap();
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert_eq!(output.status.code(), Some(2), "{args:?}: {message}");
+    assert!(output.stdout.is_empty());
+    for part in parts {
+        assert!(message.contains(part), "'{part}' is not in: {message}");
+    }
+    assert!(
+        !folder.join("data").exists() && !folder.join("plots").exists(),
+        "half-written output"
+    );
+}
+
+#[test]
+fn bad_experiments_are_refused() {
+    let cases: [(&str, &str, &[&str]); 14] = [
+        (
+            "kind = \"hits-vs-area\"",
+            "kind = \"hits\"",
+            &["e.toml:1:8", "'hits'", "hits-vs-area"],
+        ),
+        (
+            "seed = 5",
+            "seed = 5\nsed = 6",
+            &["e.toml:4:1", "unknown field `sed`", "expected"],
+        ),
+        (
+            "seed = 5",
+            "seed = \"five\"",
+            &["e.toml:3:8", "invalid type", "u64"],
+        ),
+        ("seed = 5\n", "", &["e.toml", "missing field `seed`"]),
+        (
+            "\"sah\", \"spatial",
+            "\"sahh\", \"spatial",
+            &["e.toml:5", "'sahh'", "sah-between-medians"],
+        ),
+        (
+            "objects:2:10",
+            "objects:0",
+            &["e.toml:6", "'objects:0'", "objects:N[:D]"],
+        ),
+        (
+            "[\"simple:uniform:200\"]",
+            "[]",
+            &["e.toml", "scenes", "at least one"],
+        ),
+        (
+            "[\"sah\", \"spatial-median\"]",
+            "[\"sah\", \"sah\"]",
+            &["'sah' is named twice"],
+        ),
+        ("c_t = 20.0", "c_t = -1.0", &["c_t", "none negative"]),
+        (
+            "min = 65536, max = 65536",
+            "min = 65536, max = 5",
+            &["lines.max = 5", "lines.min"],
+        ),
+        (
+            "min = 65536, max",
+            "min = 5, max",
+            &["5 lines", "at least 1024"],
+        ),
+        (
+            "gate = 0.001 }\n\n[quick]",
+            "gate = 2.0 }\n\n[quick]",
+            &["expect.gate", "0 to 1"],
+        ),
+        (
+            "strategy = \"sah\" }\nexpect = { slope_within = 0.1",
+            "strategy = \"sah-cyclic\" }\nexpect = { slope_within = 0.1",
+            &["figure", "not among"],
+        ),
+        (
+            "question = \"Does it work?\"",
+            "question = \"Does it work?",
+            &["e.toml:2:"],
+        ),
+    ];
+    for (old, new, parts) in cases {
+        assert!(GOOD.contains(old), "{old}");
+        let folder = with_experiment(&GOOD.replacen(old, new, 1));
+        refused(folder.path(), &["run", "e.toml"], parts);
+    }
+}
+
+#[test]
+fn bad_scenes_are_refused() {
+    let with_scene = |scene: &str| with_experiment(&GOOD.replace("simple:uniform:200", scene));
+    let cases: [(&str, &[&str]); 6] = [
+        ("simple:unifrom", &["simple:unifrom", "simple:uniform"]),
+        ("spd:balls:0", &["spd:balls:0", "sizes"]),
+        ("spd:balls:many", &["spd:balls:many"]),
+        ("nowhere.obj", &["nowhere.obj", "cannot read"]),
+        ("model.xyz", &["model.xyz", ".obj"]),
+        ("bad.obj", &["bad.obj:3", "vertex"]),
+    ];
+    for (scene, parts) in cases {
+        let folder = with_scene(scene);
+        fs::write(folder.path().join("bad.obj"), "v 0 0 0\nv 1 0 0\nf 1 2 3\n").unwrap();
+        refused(folder.path(), &["run", "e.toml"], parts);
+        refused(folder.path(), &["scene", scene], parts);
+    }
+    // An empty scene.
+    let folder = tempdir().unwrap();
+    fs::write(folder.path().join("empty.obj"), "v 0 0 0\n").unwrap();
+    refused(
+        folder.path(),
+        &["scene", "empty.obj"],
+        &["empty.obj", "empty", "at least one"],
+    );
+}
+
+#[test]
+fn bad_arguments_are_refused() {
+    let folder = with_experiment(GOOD);
+    refused(
+        folder.path(),
+        &["run", "none.toml"],
+        &["none.toml", "cannot read"],
+    );
+    refused(folder.path(), &["run"], &["EXPERIMENT.toml"]);
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--lines", "many"],
+        &["--lines", "2^20"],
+    );
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--lines", "10"],
+        &["10 lines", "at least 1024"],
+    );
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--threads", "0"],
+        &["--threads"],
+    );
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--sed", "3"],
+        &["--sed", "--seed"],
+    );
+    refused(folder.path(), &["rum"], &["rum", "run"]);
+    refused(
+        folder.path(),
+        &["run", "e.toml", "./e.toml"],
+        &["named 'e'", "--out"],
+    );
+    refused(
+        folder.path(),
+        &["plots", "nowhere"],
+        &["nowhere", "summary.json"],
+    );
+    refused(
+        folder.path(),
+        &["publish", "nowhere"],
+        &["nowhere", "run it first"],
+    );
+    refused(
+        folder.path(),
+        &["scene", "simple:uniform", "--stop", "never"],
+        &["never", "cost-gain"],
+    );
+}
+
+#[test]
+fn unwritable_output_is_refused() {
+    let folder = with_experiment(GOOD);
+    fs::write(folder.path().join("file"), "").unwrap();
+    let output = validate(folder.path())
+        .args(["run", "e.toml", "--out", "file"])
+        .output()
+        .unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        String::from_utf8(output.stderr)
+            .unwrap()
+            .contains("cannot write")
+    );
+}
