@@ -4,6 +4,7 @@
 //! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), or the path of a mesh. The same word gives the same bits
 //! on every machine: only + - * / and square roots, `libm`, and random numbers from a fixed seed are used.
 
+mod catalogue;
 mod error;
 mod mesh;
 mod obj;
@@ -15,6 +16,8 @@ mod spd;
 
 use crate::geom::{Aabb, Objects, Polygon, Triangle};
 
+pub use catalogue::catalogue;
+use catalogue::{Recipe, generate, unknown};
 pub use error::SceneError;
 use random::Random;
 
@@ -37,22 +40,6 @@ pub struct Scene {
     pub world: Aabb,
     /// What a user should know of how it was read, e.g. degenerate triangles that can never be hit.
     pub notes: Vec<String>,
-}
-
-/// A procedural scene: how it is called, what it is, and how to make it.
-struct Recipe {
-    /// What stands before the colon.
-    group: &'static str,
-    /// What stands after it.
-    name: &'static str,
-    /// One line for a list of scenes.
-    about: &'static str,
-    /// The size taken when none is given.
-    size: usize,
-    /// Smallest and largest size.
-    sizes: [usize; 2],
-    /// Makes the objects of a size, with random numbers seeded by name and size.
-    make: fn(usize, Random) -> Objects,
 }
 
 impl Scene {
@@ -117,59 +104,6 @@ impl Scene {
     }
 }
 
-/// The procedural scenes: what one types, and a line on what it is.
-pub fn catalogue() -> Vec<(String, String)> {
-    recipes()
-        .map(|r| {
-            let about = format!("{} (size {} if none is given)", r.about, r.size);
-            (r.spec(), about)
-        })
-        .collect()
-}
-
-impl Recipe {
-    fn spec(&self) -> String {
-        format!("{}:{}", self.group, self.name)
-    }
-}
-
-fn recipes() -> impl Iterator<Item = &'static Recipe> {
-    simple::RECIPES.iter().chain(&spd::RECIPES)
-}
-
-fn generate(spec: &str, group: &str, rest: &str) -> Result<Scene, SceneError> {
-    let (name, size) = match rest.split_once(':') {
-        Some((name, size)) => (name, Some(size)),
-        None => (rest, None),
-    };
-    let Some(recipe) = recipes().find(|r| r.group == group && r.name == name) else {
-        return Err(unknown(spec, "no such scene".into()));
-    };
-    let [least, most] = recipe.sizes;
-    let wrong_size = |wrong| SceneError::Size {
-        spec: spec.into(),
-        wrong,
-        name: recipe.spec(),
-        least,
-        most,
-    };
-    let size = match size {
-        None => recipe.size,
-        Some(text) => text
-            .parse()
-            .map_err(|_| wrong_size(format!("the size '{text}' is not a whole number")))?,
-    };
-    if size < least {
-        return Err(wrong_size(format!("the size {size} is too small")));
-    }
-    if size > most {
-        return Err(wrong_size(format!("the size {size} is too large")));
-    }
-    let name = format!("{}:{size}", recipe.spec());
-    let objects = (recipe.make)(size, Random::named(&name));
-    Scene::new(name, objects, Vec::new())
-}
-
 fn read(path: &str) -> Result<Scene, SceneError> {
     let extension = std::path::Path::new(path)
         .extension()
@@ -187,44 +121,6 @@ fn read(path: &str) -> Result<Scene, SceneError> {
     })?;
     let (objects, notes) = parse(path, &bytes)?.into_parts();
     Scene::new(path, objects, notes)
-}
-
-/// The error for a scene that does not exist, with the nearest name that does and all the others.
-fn unknown(spec: &str, wrong: String) -> SceneError {
-    let names: Vec<String> = recipes().map(Recipe::spec).collect();
-    let nearest = names
-        .iter()
-        .map(|name| (edits(spec.trim_end_matches(':'), name), name))
-        .min();
-    let hint = match nearest {
-        Some((distance, name)) if distance <= 3 => format!("did you mean {name}? "),
-        _ => String::new(),
-    };
-    let kinds = EXTENSIONS.map(|e| format!(".{e}")).join(", ");
-    SceneError::Unknown {
-        spec: spec.into(),
-        wrong,
-        right: format!(
-            "{hint}scenes are {}, and files ending in {kinds}",
-            names.join(", ")
-        ),
-    }
-}
-
-/// Least number of letters to insert, remove or replace to turn one word into the other (Levenshtein).
-fn edits(a: &str, b: &str) -> usize {
-    let b: Vec<char> = b.chars().collect();
-    let mut row: Vec<usize> = (0..=b.len()).collect();
-    for (i, x) in a.chars().enumerate() {
-        let mut diagonal = row[0];
-        row[0] = i + 1;
-        for (j, y) in b.iter().enumerate() {
-            let replaced = diagonal + usize::from(x != *y);
-            diagonal = row[j + 1];
-            row[j + 1] = replaced.min(diagonal + 1).min(row[j] + 1);
-        }
-    }
-    row[b.len()]
 }
 
 /// Refuses coordinates that are not finite and radii that are not positive.
@@ -354,62 +250,5 @@ mod tests {
         );
         assert_eq!(scene.counts(), "2 triangles");
         assert_eq!(scene.world.hi, DVec3::new(2.0, 1.0, 0.0));
-    }
-
-    #[test]
-    fn every_scene_of_the_catalogue_loads_and_names_itself() {
-        let all = catalogue();
-        assert_eq!(all.len(), 9);
-        for (spec, about) in all {
-            let scene = Scene::load(&spec).expect("a scene of the catalogue");
-            assert!(scene.name.starts_with(&format!("{spec}:")), "{spec}");
-            let again = Scene::load(&scene.name).expect("the same scene");
-            assert_eq!(again.objects, scene.objects);
-            assert_eq!(again.name, scene.name);
-            assert!(scene.bounds.iter().all(|b| scene.world.contains(b)));
-            assert!(scene.notes.is_empty(), "{spec}: {:?}", scene.notes);
-            assert!(!about.is_empty());
-        }
-    }
-
-    #[test]
-    fn unknown_scenes_are_told_the_known_ones() {
-        let text = message(Scene::load("simple:unifrom"));
-        assert!(text.contains("did you mean simple:uniform?"), "{text}");
-        assert!(
-            text.contains("spd:tetra") && text.contains(".ply"),
-            "{text}"
-        );
-        assert!(message(Scene::load("spd:bals")).contains("did you mean spd:balls?"));
-        assert!(message(Scene::load("simple")).contains("simple: no such scene; scenes are"));
-        let text = message(Scene::load("room.stl"));
-        assert!(
-            text.starts_with("room.stl: cannot read .stl files"),
-            "{text}"
-        );
-        let text = message(Scene::load("no/such/file.obj"));
-        assert_eq!(text, "no/such/file.obj: cannot read the file");
-    }
-
-    #[test]
-    fn sizes_out_of_range_are_told_the_range() {
-        let text = message(Scene::load("spd:balls:9"));
-        assert_eq!(
-            text,
-            "spd:balls:9: the size 9 is too large; sizes of spd:balls run from 1 to 8"
-        );
-        let text = message(Scene::load("simple:soup:0"));
-        assert!(text.contains("the size 0 is too small"), "{text}");
-        for bad in ["", "x", "-1", "2.5", "3:4"] {
-            let text = message(Scene::load(&format!("spd:tetra:{bad}")));
-            assert!(text.contains(&format!("the size '{bad}' is not")), "{text}");
-        }
-    }
-
-    #[test]
-    fn edit_distance() {
-        assert_eq!(edits("", "abc"), 3);
-        assert_eq!(edits("kitten", "sitting"), 3);
-        assert_eq!(edits("same", "same"), 0);
     }
 }
