@@ -22,4 +22,7 @@ cp "$scratch/crates/vendor/bvh/media/sponza.obj" models/sponza.obj
 cp "$scratch/crates/vendor/kiss3d/examples/media/teapot/teapot.obj" models/teapot.obj
 
 sha256sum -c <<'SUMS'
+f32b87762894bde78cd45dc05aa9fde0f5ad390c944168a96e97191ff1fc6d45  models/dragon_res3.ply
+f109270c87e563790153e557890c1029eea4fda4ce360b4164fa8682627bd90d  models/sponza.obj
+8c5b8700fcf7651e15a9c3bd18c53762447752225e2f8c2e74b2514b1a75e21e  models/teapot.obj
 SUMS

@@ -197,3 +197,60 @@ fn a_complete_grid_has_the_known_costs() {
         }
     }
 }
+
+/// Counts to the last line, on any machine: scenes, trees and lines use nothing that differs between processors.
+#[test]
+fn golden_counts() {
+    const GOLDEN: [(&str, Strategy, [u64; 4]); 6] = [
+        (
+            "spd:balls:3",
+            Strategy::Sah,
+            [3_089, 175_163, 80_499, 81_991],
+        ),
+        (
+            "spd:balls:3",
+            Strategy::ObjectMedian,
+            [19_903, 3_547_515, 961_189, 1_930_232],
+        ),
+        (
+            "spd:tetra:5",
+            Strategy::SahBetweenMedians,
+            [1_311, 1_192_908, 351_610, 269_260],
+        ),
+        (
+            "simple:soup:500",
+            Strategy::SpatialMedian,
+            [10_539, 3_346_473, 956_418, 1_674_903],
+        ),
+        (
+            "simple:mixture:500",
+            Strategy::SahSamples(10),
+            [3_807, 2_196_686, 657_341, 1_188_664],
+        ),
+        (
+            "simple:flat:500",
+            Strategy::SahLongest,
+            [1_069, 790_142, 183_237, 290_751],
+        ),
+    ];
+    for (name, strategy, golden) in GOLDEN {
+        let scene = sahlab::scene::Scene::load(name).unwrap();
+        let tree = sahlab::kd::build(
+            &scene.bounds,
+            scene.world,
+            &common::rules(strategy, "objects:2:16"),
+        );
+        let lines = SurfaceLines {
+            world: scene.world,
+            seed: 1990,
+        };
+        let counts = count_lines(&tree, 1 << 16, |range| lines.range(range), |_| ());
+        let found = [
+            tree.nodes.len() as u64,
+            counts.work.inner,
+            counts.work.leaves,
+            counts.work.tests,
+        ];
+        assert_eq!(found, golden, "{name} {strategy}");
+    }
+}

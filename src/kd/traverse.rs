@@ -94,12 +94,18 @@ pub fn traverse<M: Mode>(
             NodeKind::Leaf { first, count } => {
                 probe.leaf(node, count);
                 let limit = leaf(tree.objects(first, count));
-                match stack.pop() {
-                    Some((next, span)) if span.t0 <= limit => {
-                        node = next;
-                        Span { t0, t1 } = span;
+                // Skip what begins beyond the limit, but do not stop there: the right side of a plane that the line
+                // lies in waits below nodes that begin later.
+                loop {
+                    match stack.pop() {
+                        Some((next, span)) if span.t0 <= limit => {
+                            node = next;
+                            Span { t0, t1 } = span;
+                            break;
+                        }
+                        Some(_) => {}
+                        None => return,
                     }
-                    _ => return,
                 }
             }
         }

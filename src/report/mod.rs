@@ -149,6 +149,7 @@ pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>
     let tables = [
         ("cells", tables::cells(&run.cells)),
         ("costs", tables::costs(&run.cells)),
+        ("fits", tables::fits(&run.cells)),
         ("strategies", tables::strategies(&run.cells)),
         ("trees", tables::trees(&run.cells)),
         ("verdicts", tables::verdicts(&run.summary)),

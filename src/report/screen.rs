@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::number::{counted, grouped, significant};
+use super::table::fold;
 use super::{Run, tables};
 use crate::study::records::CellRecord;
 
@@ -25,7 +26,13 @@ pub fn study(run: &Run) -> String {
         run.summary.seed,
         grouped(lines)
     );
-    text + &tables::costs(&run.cells).to_text(WIDTH) + &verdicts(run)
+    let costs = tables::costs(&run.cells);
+    let table = if costs.fits(WIDTH) {
+        costs
+    } else {
+        tables::extremes(&run.cells)
+    };
+    text + &table.to_text(WIDTH) + &verdicts(run)
 }
 
 /// The summary of one scene: its trees, their costs, and which to take.
@@ -80,12 +87,14 @@ fn advice(cells: &[CellRecord]) -> String {
 /// Per cent of cost below which trees count as equal.
 const LEAST_GAIN: f64 = 0.005;
 
-/// One line a verdict.
+/// A verdict and its figures each, folded beside their name.
 fn verdicts(run: &Run) -> String {
+    const MARGIN: usize = 22;
     let mut text = String::from("\n");
     for v in &run.summary.verdicts {
-        let mark = if v.held { "held  " } else { "MISSED" };
-        let _ = writeln!(text, "{mark}  {:14} {}", v.name, v.message);
+        let mark = if v.held { "held" } else { "MISSED" };
+        let message = fold(&v.message, WIDTH - MARGIN).replace('\n', &format!("\n{:MARGIN$}", ""));
+        let _ = writeln!(text, "{mark:6}  {:14}{message}", v.name);
     }
     if run.summary.quick {
         text += "quick form: fewer lines, smaller scenes; no figure of it is to be published\n";

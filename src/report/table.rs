@@ -134,23 +134,8 @@ impl Table {
     /// For a terminal of this many characters: columns that do not fit follow below, beside the same row names. Long
     /// headings are folded at a hyphen.
     pub fn to_text(&self, width: usize) -> String {
-        let shown: Vec<Vec<String>> = self
-            .rows
-            .iter()
-            .map(|row| row.iter().map(|c| c.show().replace(" ± ", "±")).collect())
-            .collect();
-        let headings: [Vec<String>; 2] = self
-            .columns
-            .iter()
-            .map(|column| fold_heading(&column.title))
-            .fold([Vec::new(), Vec::new()], |mut lines, [above, below]| {
-                lines[0].push(above);
-                lines[1].push(below);
-                lines
-            });
-        let texts = || headings.iter().chain(&shown);
-        let widest = |i: usize| texts().map(|row| row[i].chars().count()).max();
-        let widths: Vec<usize> = (0..self.columns.len()).filter_map(widest).collect();
+        let (headings, shown) = self.texts();
+        let widths = self.text_widths();
         let mut out = format!("{}\n", fold(&self.caption, width));
         for block in self.blocks(&widths, width) {
             out.push('\n');
@@ -165,6 +150,35 @@ impl Table {
             }
         }
         out
+    }
+
+    /// Headings in two lines, and the rows, as a terminal shows them.
+    fn texts(&self) -> ([Vec<String>; 2], Vec<Vec<String>>) {
+        let show = |row: &Vec<Cell>| row.iter().map(|c| c.show().replace(" ± ", "±")).collect();
+        let headings = self
+            .columns
+            .iter()
+            .map(|column| fold_heading(&column.title));
+        let (above, below) = headings.map(|[above, below]| (above, below)).unzip();
+        ([above, below], self.rows.iter().map(show).collect())
+    }
+
+    /// Width of each column of [`texts`](Self::texts).
+    fn text_widths(&self) -> Vec<usize> {
+        let (headings, shown) = self.texts();
+        let widest = |i: usize| {
+            headings
+                .iter()
+                .chain(&shown)
+                .map(|row| row[i].chars().count())
+                .max()
+        };
+        (0..self.columns.len()).filter_map(widest).collect()
+    }
+
+    /// Whether text of this width holds all columns side by side.
+    pub fn fits(&self, width: usize) -> bool {
+        self.blocks(&self.text_widths(), width).len() == 1
     }
 
     /// Markdown, with `command` as what generated it.
@@ -327,7 +341,7 @@ fn fold_heading(title: &str) -> [String; 2] {
 }
 
 /// Breaks a sentence into lines of at most this many characters.
-fn fold(text: &str, width: usize) -> String {
+pub(super) fn fold(text: &str, width: usize) -> String {
     let mut out = String::new();
     let mut used = 0;
     for word in text.split(' ') {

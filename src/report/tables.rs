@@ -1,7 +1,7 @@
 //! The tables of a run.
 
 use super::cost::Pair;
-use super::number::{Z99, decimals_for};
+use super::number::{Z99, decimals_for, signed};
 use super::series::Series;
 use super::table::{Cell, Column, Table};
 use crate::study::records::{CellRecord, Summary};
@@ -276,6 +276,98 @@ pub fn of_scene(cells: &[CellRecord]) -> Table {
             .to_owned(),
         columns,
         keys: 1,
+        rows: cells.iter().map(row).collect(),
+    }
+}
+
+/// Every scene: the cost of the reference strategy, and the strategies that cost least and most.
+pub fn extremes(cells: &[CellRecord]) -> Table {
+    let columns = vec![
+        Column::left("scene", "scene"),
+        Column::right("predicted", "c_predicted"),
+        Column::right("counted", "c_counted"),
+        Column::left("least", "least"),
+        Column::left("most", "most"),
+    ];
+    let mut rows = Vec::new();
+    for scene in Series::of(cells).scenes {
+        let mut of_scene: Vec<&CellRecord> =
+            cells.iter().filter(|cell| cell.scene == scene).collect();
+        of_scene.sort_by(|a, b| a.c_counted.total_cmp(&b.c_counted));
+        let (least, most) = (of_scene[0], of_scene[of_scene.len() - 1]);
+        let reference = of_scene
+            .iter()
+            .copied()
+            .find(|cell| cell.strategy == REFERENCE);
+        let mut row = vec![Cell::Text(scene.to_owned())];
+        row.extend(reference.map_or([Cell::Missing, Cell::Missing], |cell| {
+            let half = Z99 * cell.c_se;
+            [
+                Cell::Value(cell.c_predicted, decimals_for(half)),
+                Cell::Measured(cell.c_counted, half),
+            ]
+        }));
+        row.extend([least, most].map(|cell| {
+            let change = reference.map(|r| 100.0 * (cell.c_counted / r.c_counted - 1.0));
+            let change = change.map_or(String::new(), |c| format!(" {} %", signed(c, 1)));
+            Cell::Text(cell.strategy.clone() + &change)
+        }));
+        rows.push(row);
+    }
+    Table {
+        caption: format!(
+            "Tree cost C of {REFERENCE} with half of the 99 % interval, and the strategies of the least and the most C \
+             counted, relative to it. All costs: tables/costs.md in the data folder."
+        ),
+        columns,
+        keys: 1,
+        rows,
+    }
+}
+
+/// Every cell: the three regressions of hits against N p, and how much of the scatter chance explains.
+pub fn fits(cells: &[CellRecord]) -> Table {
+    let columns = vec![
+        Column::left("scene", "scene"),
+        Column::left("strategy", "strategy"),
+        Column::right("slope − 1, %, weighted", "slope_minus_1_pct"),
+        Column::right("slope − 1, %, ordinary", "slope_ols_minus_1_pct"),
+        Column::right("free line: intercept, 10⁻⁶", "free_intercept_ppm"),
+        Column::right("slope − 1, %", "free_slope_minus_1_pct"),
+        Column::right("p", "free_p"),
+        Column::right("1 − R² over its expectation", "unexplained_ratio"),
+        Column::right("largest |z|", "max_abs_z"),
+    ];
+    let estimate = |value: Option<f64>, se: Option<f64>, less: f64, scale: f64| match (value, se) {
+        (Some(value), Some(se)) => Cell::Estimate(scale * (value - less), scale * Z99 * se),
+        _ => Cell::Missing,
+    };
+    let value =
+        |value: Option<f64>, decimals| value.map_or(Cell::Missing, |v| Cell::Value(v, decimals));
+    let row = |cell: &CellRecord| {
+        let ratio = cell
+            .unexplained
+            .zip(cell.unexplained_expected)
+            .map(|(found, expected)| found / expected);
+        vec![
+            Cell::Text(cell.scene.clone()),
+            Cell::Text(cell.strategy.clone()),
+            estimate(cell.slope, cell.slope_se, 1.0, 100.0),
+            estimate(cell.slope_ols, cell.slope_ols_se, 1.0, 100.0),
+            estimate(cell.free_intercept, cell.free_intercept_se, 0.0, 1e6),
+            estimate(cell.free_slope, cell.free_slope_se, 1.0, 100.0),
+            cell.free_p.map_or(Cell::Missing, Cell::PValue),
+            value(ratio, 2),
+            value(cell.max_abs_z, 1),
+        ]
+    };
+    Table {
+        caption: "Regressions of a node's share of hits on p = SA(K)/SA(R): through the origin with weights 1/(p(1 − p)) and \
+                  without, and the free line a + b p (weighted) with the p-value of a = 0, b = 1 together. ± is half of the \
+                  99 % interval. 1 − R² (uncentred) is what chance leaves when its ratio is near 1."
+            .to_owned(),
+        columns,
+        keys: 2,
         rows: cells.iter().map(row).collect(),
     }
 }

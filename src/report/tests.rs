@@ -294,7 +294,7 @@ fn a_run_becomes_figures_and_tables() {
         written,
         "all files told, and no temporary one left"
     );
-    assert_eq!(written.len(), 21);
+    assert_eq!(written.len(), 24);
     assert!(
         screen::study(&run)
             .lines()

@@ -2,13 +2,16 @@
 
 use sha2::{Digest, Sha256};
 
+use crate::geom::{Line, Span};
 use crate::kd::Rules;
+use crate::rays::SurfaceLines;
+use crate::rays::checks::{SamplerChecks, check_sampler};
 use crate::scene::Scene;
 use crate::stats::{holm, normal_quantile, simultaneous_quantile};
 
 use super::Plan;
 use super::cell::CellPlan;
-use super::records::{CellRecord, Estimate, Summary, Verdict};
+use super::records::{CellRecord, Estimate, SamplerRecord, Summary, Verdict};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 1;
@@ -50,6 +53,30 @@ fn line_seed(seed: u64, content: &str) -> u64 {
     u64::from_le_bytes(std::array::from_fn(|i| hash[i]))
 }
 
+/// Most lines of a scene that the sampler checks look at.
+const CHECKED: u64 = 1 << 18;
+
+/// Check the lines of each scene in five ways: hits of boxes alone are blind to most wrong laws of directions.
+pub fn check_lines(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
+    let check = |scene: &Scene| {
+        let n = plan.lines.at_least().min(CHECKED);
+        let seed = line_seed(plan.seed, &hex(&content_hash(scene)));
+        let world = scene.world;
+        let lines: Vec<Line> = SurfaceLines { world, seed }.range(0..n).collect();
+        let p = check_sampler(&world, seed, n, |i| (lines[i as usize], Span::FULL));
+        SamplerRecord {
+            scene: scene.name.clone(),
+            lines: n,
+            boxes_p: p.boxes,
+            mean_chord_p: p.mean_chord,
+            fourth_chord_p: p.fourth_chord,
+            directions_p: p.directions,
+            triangles_p: p.triangles,
+        }
+    };
+    scenes.iter().map(check).collect()
+}
+
 /// A scene's content: the boxes are all that a tree and its counts depend on.
 fn content_hash(scene: &Scene) -> [u8; 8] {
     let mut hash = Sha256::new();
@@ -67,7 +94,7 @@ fn hex(bytes: &[u8]) -> String {
 }
 
 /// The run's answer: estimates with intervals, and whether the expectations held.
-pub fn summarise(plan: &Plan, cells: &[CellRecord]) -> Summary {
+pub fn summarise(plan: &Plan, cells: &[CellRecord], samplers: &[SamplerRecord]) -> Summary {
     let mut estimates = Vec::new();
     // Slope and three counts of every cell are judged together; C is a form of the counts.
     let judged = cells.len() * 4;
@@ -107,12 +134,17 @@ pub fn summarise(plan: &Plan, cells: &[CellRecord]) -> Summary {
         slope_within: plan.expect.slope_within,
         figure_scene: plan.figure.scene.clone(),
         figure_strategy: plan.figure.strategy.name(),
-        verdicts: verdicts(plan, cells, &estimates),
+        verdicts: verdicts(plan, cells, samplers, &estimates),
         estimates,
     }
 }
 
-fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Verdict> {
+fn verdicts(
+    plan: &Plan,
+    cells: &[CellRecord],
+    samplers: &[SamplerRecord],
+    estimates: &[Estimate],
+) -> Vec<Verdict> {
     let verdict = |name: &str, held: bool, message: String| Verdict {
         name: name.into(),
         held,
@@ -196,6 +228,7 @@ fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Ve
         ),
     );
     let mut all = vec![identities];
+    all.extend(sampler_verdict(plan, samplers));
     all.extend(slope_within);
     if !slopes.is_empty() {
         all.push(simultaneous("slopes-cover", "1", slopes));
@@ -203,6 +236,36 @@ fn verdicts(plan: &Plan, cells: &[CellRecord], estimates: &[Estimate]) -> Vec<Ve
     all.push(simultaneous("counts-cover", "the predicted count", counts));
     all.extend(gate);
     all
+}
+
+/// Holm over the five checks of every scene's lines.
+fn sampler_verdict(plan: &Plan, samplers: &[SamplerRecord]) -> Option<Verdict> {
+    let checks = |r: &SamplerRecord| {
+        [
+            r.boxes_p,
+            r.mean_chord_p,
+            r.fourth_chord_p,
+            r.directions_p,
+            r.triangles_p,
+        ]
+    };
+    let p: Vec<f64> = samplers.iter().flat_map(checks).collect();
+    let worst = (0..p.len()).min_by(|&a, &b| p[a].total_cmp(&p[b]))?;
+    let adjusted = holm(&p)[worst];
+    let names = SamplerChecks::NAMES;
+    Some(Verdict {
+        name: "sampler".into(),
+        held: adjusted >= plan.expect.gate,
+        message: format!(
+            "{} checks of the lines ({}): smallest p-value {:.2e} ({}, {}), after Holm {:.3}",
+            p.len(),
+            names.join(", "),
+            p[worst],
+            names[worst % names.len()],
+            samplers[worst / names.len()].scene,
+            adjusted
+        ),
+    })
 }
 
 /// Whether the simultaneous interval contains the prediction. Without variance both must be equal but for rounding.

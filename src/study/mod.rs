@@ -1,6 +1,7 @@
 //! Experiments: from a file to cells, from cells to records, from records to verdicts.
 
 pub mod cell;
+pub mod findings;
 pub mod hits_vs_area;
 pub mod plan;
 pub mod records;

@@ -196,6 +196,26 @@ pub struct TimingRecord {
     pub visits: u64,
 }
 
+/// The five checks of the lines through one scene's box, as p-values. A row of `samplers.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SamplerRecord {
+    /// Scene whose box the lines hit.
+    pub scene: String,
+    /// Lines checked.
+    pub lines: u64,
+    /// Hits of boxes: SA(K)/SA(R).
+    pub boxes_p: f64,
+    /// Mean chord: 4V/SA.
+    pub mean_chord_p: f64,
+    /// Mean fourth power of the chord: 12 V^2/(pi SA).
+    pub fourth_chord_p: f64,
+    /// Moments of the directions.
+    pub directions_p: f64,
+    /// Hits of triangles: 2A/SA(R).
+    pub triangles_p: f64,
+}
+
 /// `summary.json`: the answer of a run, without times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {

@@ -14,7 +14,7 @@ use thiserror::Error;
 use crate::files::write_atomic;
 
 use super::cell::CellResult;
-use super::records::{Summary, TimingRecord};
+use super::records::{SamplerRecord, Summary, TimingRecord};
 
 /// A folder cannot be written.
 #[derive(Debug, Error)]
@@ -97,7 +97,12 @@ impl Store {
     }
 
     /// Put the run's files together.
-    pub fn write_run(&self, results: &[CellResult], summary: &Summary) -> Result<(), StoreError> {
+    pub fn write_run(
+        &self,
+        results: &[CellResult],
+        samplers: &[SamplerRecord],
+        summary: &Summary,
+    ) -> Result<(), StoreError> {
         let rows: Vec<_> = results.iter().map(|r| &r.record).collect();
         self.write(self.folder.join("cells.csv"), &csv_bytes(&rows))?;
         let rows: Vec<_> = results.iter().flat_map(|r| &r.bins).collect();
@@ -110,6 +115,7 @@ impl Store {
         self.write(self.folder.join("nodes.csv"), &csv_bytes(&rows))?;
         let rows: Vec<_> = results.iter().filter_map(|r| r.timing.as_ref()).collect();
         self.write(self.folder.join("timings.csv"), &csv_bytes(&rows))?;
+        self.write(self.folder.join("samplers.csv"), &csv_bytes(samplers))?;
         let mut json = serde_json::to_vec_pretty(summary).expect("records are plain data");
         json.push(b'\n');
         self.write(self.folder.join("summary.json"), &json)

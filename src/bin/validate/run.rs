@@ -7,7 +7,7 @@ use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
 use sahlab::study::Plan;
 use sahlab::study::cell::{CellResult, measure};
-use sahlab::study::hits_vs_area::{cells, summarise};
+use sahlab::study::hits_vs_area::{cells, check_lines, summarise};
 use sahlab::study::store::Store;
 
 use crate::args::Common;
@@ -21,7 +21,12 @@ const GUESS: u64 = 2;
 pub fn load_scenes(plan: &mut Plan) -> Result<Vec<Scene>> {
     let mut scenes = Vec::new();
     for spec in &mut plan.scenes {
-        let scene = Scene::load(spec)?;
+        let scene = Scene::load(spec).map_err(|error| {
+            let hint = "experiments/fetch-meshes.sh fetches the meshes of experiments/figure3.toml into models/";
+            let missing = spec.starts_with("models/") && !Path::new(spec).exists();
+            let error = anyhow::Error::from(error);
+            if missing { error.context(hint) } else { error }
+        })?;
         if plan.figure.scene == *spec {
             plan.figure.scene.clone_from(&scene.name);
         }
@@ -53,8 +58,9 @@ pub fn run(
     let plots = common.out.join("plots").join(&plan.name);
     let results = measure_cells(plan, scenes, &data, common)?;
     let records: Vec<_> = results.iter().map(|r| r.record.clone()).collect();
-    let summary = summarise(plan, &records);
-    Store::open(&data).write_run(&results, &summary)?;
+    let samplers = check_lines(plan, scenes);
+    let summary = summarise(plan, &records, &samplers);
+    Store::open(&data).write_run(&results, &samplers, &summary)?;
 
     // From here on only files are read.
     let run = report::read_run(&data)?;

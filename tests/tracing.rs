@@ -1,0 +1,116 @@
+//! Tracing: the nearest hit through any tree is brute force's, same object and same t, bit for bit.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+mod common;
+
+use common::rules;
+use glam::DVec3;
+use sahlab::geom::{Line, Objects, Ray, Span};
+use sahlab::kd::{Hit, NodeKind, Stack, Strategy, Tree, build, nearest};
+use sahlab::rays::{SurfaceLines, Uniforms};
+use sahlab::scene::Scene;
+
+fn brute_force(objects: &Objects, ray: &Ray) -> Option<Hit> {
+    (0..objects.len() as u32).fold(None, |best, object| match objects.intersect(object, ray) {
+        Some(t) => Hit::nearer(best, object, t),
+        None => best,
+    })
+}
+
+/// A point of an object that structured rays go for: a corner or an edge's middle, or a pole of a sphere.
+fn target(objects: &Objects, i: usize) -> DVec3 {
+    let corner = |corners: &[DVec3]| {
+        let a = corners[i % corners.len()];
+        if i.is_multiple_of(2) {
+            a
+        } else {
+            0.5 * (a + corners[(i + 1) % corners.len()])
+        }
+    };
+    let i = i % objects.len();
+    if let Some(t) = objects.triangles.get(i) {
+        return corner(&t.0);
+    }
+    let i = i - objects.triangles.len();
+    match objects.spheres.get(i) {
+        Some(s) => s.centre + s.radius * DVec3::AXES[i % 3],
+        None => corner(objects.polygons[i - objects.spheres.len()].corners()),
+    }
+}
+
+/// Rays of every hard family.
+fn rays(scene: &Scene, tree: &Tree, n: usize) -> Vec<Ray> {
+    let mut rays = Vec::new();
+    let world = scene.world;
+    let size = world.extent().length();
+    let mut uniforms = Uniforms::starting_at(77, 0);
+    for (i, line) in (SurfaceLines { world, seed: 3 })
+        .range(0..n as u64)
+        .enumerate()
+    {
+        let [x, y, z, w] = uniforms.next4();
+        let inside = world.lo + DVec3::new(x, y, z) * world.extent();
+        let target = target(&scene.objects, (w * 1e6) as usize + i);
+        let mut along = DVec3::ZERO;
+        along[i % 3] = if i.is_multiple_of(2) { size } else { -size };
+        // Isotropic from the surface; from inside; a whole line; to a corner or an edge; along an axis through it.
+        rays.push(Ray::new(line, Span::from(0.0)));
+        rays.push(Ray::new(Line::new(inside, line.direction), Span::from(0.0)));
+        rays.push(Ray::new(line, Span::FULL));
+        rays.push(Ray::new(
+            Line::new(line.origin, target - line.origin),
+            Span::from(0.0),
+        ));
+        rays.push(Ray::new(Line::new(target - along, along), Span::from(0.0)));
+        // A shadow segment between two points; in a split plane, slanted and along an axis.
+        let shadow = Span { t0: 1e-9, t1: 1.0 };
+        if target != inside {
+            rays.push(Ray::new(Line::new(inside, target - inside), shadow));
+        }
+        let node = (w * tree.nodes.len() as f64) as usize;
+        if let NodeKind::Inner { axis, split, .. } = tree.nodes[node].kind() {
+            let (mut origin, mut slanted) = (line.origin, line.direction);
+            origin[axis] = split;
+            slanted[axis] = if i.is_multiple_of(2) { 0.0 } else { -0.0 };
+            if slanted != DVec3::ZERO {
+                rays.push(Ray::new(Line::new(origin, slanted), Span::from(0.0)));
+            }
+            let mut straight = DVec3::ZERO;
+            straight[(axis + 1) % 3] = 1.0;
+            rays.push(Ray::new(Line::new(origin, straight), Span::FULL));
+        }
+    }
+    rays
+}
+
+#[test]
+fn nearest_hits_are_brute_forces() {
+    for name in [
+        "spd:tetra:4",
+        "spd:balls:2",
+        "simple:mixture:400",
+        "simple:flat:300",
+        "simple:overlapping:40",
+        "simple:soup:300",
+    ] {
+        let scene = Scene::load(name).unwrap();
+        let (mut all, mut hits) = (0, 0);
+        for strategy in Strategy::ALL {
+            for stop in ["objects:1", "cost-gain"] {
+                let tree = build(&scene.bounds, scene.world, &rules(strategy, stop));
+                let mut stack = Stack::default();
+                for ray in rays(&scene, &tree, 300) {
+                    let expected = brute_force(&scene.objects, &ray);
+                    let found = nearest(&tree, &scene.objects, &ray, &mut stack);
+                    assert_eq!(found, expected, "{name} {strategy} {stop}: {ray:?}");
+                    all += 1;
+                    hits += usize::from(found.is_some());
+                }
+            }
+        }
+        assert!(
+            10 * hits > all,
+            "{name}: {hits} hits of {all} rays: too few to mean anything"
+        );
+    }
+}
