@@ -146,7 +146,7 @@ pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>
             path: out.to_owned(),
         });
     }
-    let tables = [
+    let mut tables = vec![
         ("cells", tables::cells(&run.cells)),
         ("costs", tables::costs(&run.cells)),
         ("fits", tables::fits(&run.cells)),
@@ -154,6 +154,9 @@ pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>
         ("trees", tables::trees(&run.cells)),
         ("verdicts", tables::verdicts(&run.summary)),
     ];
+    if let Some(samplers) = &run.samplers {
+        tables.push(("samplers", tables::samplers(samplers)));
+    }
     let mut files = Vec::new();
     for (name, table) in tables {
         let texts = [

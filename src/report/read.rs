@@ -7,7 +7,9 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use super::ReportError;
-use crate::study::records::{BinRecord, CellRecord, NodeRecord, Summary, TimingRecord};
+use crate::study::records::{
+    BinRecord, CellRecord, NodeRecord, SamplerRecord, Summary, TimingRecord,
+};
 
 /// What a finished run left behind.
 #[derive(Clone, Debug)]
@@ -22,6 +24,8 @@ pub struct Run {
     pub nodes: Option<Vec<NodeRecord>>,
     /// `bins.csv`, where the run kept bins.
     pub bins: Option<Vec<BinRecord>>,
+    /// `samplers.csv`, where there is one.
+    pub samplers: Option<Vec<SamplerRecord>>,
     /// `timings.csv`, where there is one.
     pub timings: Option<Vec<TimingRecord>>,
 }
@@ -65,6 +69,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         cells,
         nodes: optional_rows(&dir.join("nodes.csv"))?,
         bins: optional_rows(&dir.join("bins.csv"))?,
+        samplers: optional_rows(&dir.join("samplers.csv"))?,
         timings: optional_rows(&dir.join("timings.csv"))?,
     })
 }

@@ -2,16 +2,13 @@
 
 use sha2::{Digest, Sha256};
 
-use crate::geom::{Line, Span};
 use crate::kd::Rules;
-use crate::rays::SurfaceLines;
-use crate::rays::checks::{SamplerChecks, check_sampler};
 use crate::scene::Scene;
 use crate::stats::{holm, normal_quantile, simultaneous_quantile};
 
-use super::Plan;
 use super::cell::CellPlan;
 use super::records::{CellRecord, Estimate, SamplerRecord, Summary, Verdict};
+use super::{Plan, samplers};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 1;
@@ -21,7 +18,7 @@ pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     let mut cells = Vec::new();
     for scene in scenes {
         let content = hex(&content_hash(scene));
-        let line_seed = line_seed(plan.seed, &content);
+        let line_seed = line_seed(plan.seed, scene);
         for &strategy in &plan.strategies {
             let rules = Rules {
                 strategy,
@@ -47,34 +44,11 @@ pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     cells
 }
 
-/// Seed of a scene's lines.
-fn line_seed(seed: u64, content: &str) -> u64 {
+/// Seed of a scene's lines: the run's and the scene's.
+pub fn line_seed(seed: u64, scene: &Scene) -> u64 {
+    let content = hex(&content_hash(scene));
     let hash = Sha256::digest(format!("lines of {content}, seed {seed}"));
     u64::from_le_bytes(std::array::from_fn(|i| hash[i]))
-}
-
-/// Most lines of a scene that the sampler checks look at.
-const CHECKED: u64 = 1 << 18;
-
-/// Check the lines of each scene in five ways: hits of boxes alone are blind to most wrong laws of directions.
-pub fn check_lines(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
-    let check = |scene: &Scene| {
-        let n = plan.lines.at_least().min(CHECKED);
-        let seed = line_seed(plan.seed, &hex(&content_hash(scene)));
-        let world = scene.world;
-        let lines: Vec<Line> = SurfaceLines { world, seed }.range(0..n).collect();
-        let p = check_sampler(&world, seed, n, |i| (lines[i as usize], Span::FULL));
-        SamplerRecord {
-            scene: scene.name.clone(),
-            lines: n,
-            boxes_p: p.boxes,
-            mean_chord_p: p.mean_chord,
-            fourth_chord_p: p.fourth_chord,
-            directions_p: p.directions,
-            triangles_p: p.triangles,
-        }
-    };
-    scenes.iter().map(check).collect()
 }
 
 /// A scene's content: the boxes are all that a tree and its counts depend on.
@@ -228,7 +202,7 @@ fn verdicts(
         ),
     );
     let mut all = vec![identities];
-    all.extend(sampler_verdict(plan, samplers));
+    all.extend(samplers::verdicts(plan, samplers));
     all.extend(slope_within);
     if !slopes.is_empty() {
         all.push(simultaneous("slopes-cover", "1", slopes));
@@ -236,36 +210,6 @@ fn verdicts(
     all.push(simultaneous("counts-cover", "the predicted count", counts));
     all.extend(gate);
     all
-}
-
-/// Holm over the five checks of every scene's lines.
-fn sampler_verdict(plan: &Plan, samplers: &[SamplerRecord]) -> Option<Verdict> {
-    let checks = |r: &SamplerRecord| {
-        [
-            r.boxes_p,
-            r.mean_chord_p,
-            r.fourth_chord_p,
-            r.directions_p,
-            r.triangles_p,
-        ]
-    };
-    let p: Vec<f64> = samplers.iter().flat_map(checks).collect();
-    let worst = (0..p.len()).min_by(|&a, &b| p[a].total_cmp(&p[b]))?;
-    let adjusted = holm(&p)[worst];
-    let names = SamplerChecks::NAMES;
-    Some(Verdict {
-        name: "sampler".into(),
-        held: adjusted >= plan.expect.gate,
-        message: format!(
-            "{} checks of the lines ({}): smallest p-value {:.2e} ({}, {}), after Holm {:.3}",
-            p.len(),
-            names.join(", "),
-            p[worst],
-            names[worst % names.len()],
-            samplers[worst / names.len()].scene,
-            adjusted
-        ),
-    })
 }
 
 /// Whether the simultaneous interval contains the prediction. Without variance both must be equal but for rounding.

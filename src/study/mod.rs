@@ -5,6 +5,7 @@ pub mod findings;
 pub mod hits_vs_area;
 pub mod plan;
 pub mod records;
+pub mod samplers;
 pub mod scores;
 pub mod store;
 

@@ -35,6 +35,8 @@ pub struct Plan {
     pub nodes: bool,
     /// The cell that the main figure shows.
     pub figure: Figure,
+    /// Which checks are made of the samplers besides those of the run's own lines.
+    pub controls: Option<Controls>,
     /// What is expected.
     pub expect: Expect,
     /// Whether this is the quick form.
@@ -128,6 +130,18 @@ pub struct Figure {
     pub strategy: Strategy,
 }
 
+/// Negative controls: every law of lines there is, exact or not, goes through the sampler checks.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Controls {
+    /// Lines of each law.
+    pub lines: u64,
+    /// Of a wrong law at least one p-value must lie below this.
+    pub rejected_below: f64,
+    /// Of an exact law all p-values must lie above this.
+    pub accepted_above: f64,
+}
+
 /// Bounds written before the run that they judge.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -198,6 +212,7 @@ struct File {
     cost: CostModel,
     lines: LineRule,
     figure: Figure,
+    controls: Option<Controls>,
     expect: Expect,
     quick: Quick,
 }
@@ -293,6 +308,7 @@ impl Plan {
             lines,
             nodes: file.nodes,
             figure,
+            controls: file.controls.filter(|_| !quick),
             expect,
             quick,
         };
@@ -336,6 +352,19 @@ impl Plan {
             return Err(
                 "expect.slope_within must be above 0, expect.family and expect.gate 0 to 1".into(),
             );
+        }
+        if let Some(Controls {
+            lines,
+            rejected_below,
+            accepted_above,
+        }) = self.controls
+            && !(lines >= FEWEST_LINES
+                && (0.0..1.0).contains(&rejected_below)
+                && (0.0..1.0).contains(&accepted_above))
+        {
+            return Err(format!(
+                "controls.lines must be at least {FEWEST_LINES}, its bounds 0 to 1"
+            ));
         }
         self.lines.check()
     }

@@ -196,11 +196,15 @@ pub struct TimingRecord {
     pub visits: u64,
 }
 
-/// The five checks of the lines through one scene's box, as p-values. A row of `samplers.csv`.
+/// The five checks of a law of lines through one box, as p-values. A row of `samplers.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SamplerRecord {
-    /// Scene whose box the lines hit.
+    /// The law: `study` for the run's own lines, else as `validate list samplers` names it.
+    pub law: String,
+    /// Whether the law is the metric's; a wrong one is a negative control.
+    pub exact: bool,
+    /// Scene whose box the lines hit, or the box.
     pub scene: String,
     /// Lines checked.
     pub lines: u64,

@@ -122,6 +122,7 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
             scene: spec.into(),
             strategy: Strategy::Sah,
         },
+        controls: None,
         expect: Expect {
             slope_within,
             family: 0.01,

@@ -3,11 +3,14 @@
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
+use sahlab::rays::LineLaw;
 use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
 use sahlab::study::Plan;
 use sahlab::study::cell::{CellResult, measure};
-use sahlab::study::hits_vs_area::{cells, check_lines, summarise};
+use sahlab::study::hits_vs_area::{cells, summarise};
+use sahlab::study::records::SamplerRecord;
+use sahlab::study::samplers;
 use sahlab::study::store::Store;
 
 use crate::args::Common;
@@ -58,7 +61,7 @@ pub fn run(
     let plots = common.out.join("plots").join(&plan.name);
     let results = measure_cells(plan, scenes, &data, common)?;
     let records: Vec<_> = results.iter().map(|r| r.record.clone()).collect();
-    let samplers = check_lines(plan, scenes);
+    let samplers = check_samplers(plan, scenes, common);
     let summary = summarise(plan, &records, &samplers);
     Store::open(&data).write_run(&results, &samplers, &summary)?;
 
@@ -111,6 +114,19 @@ fn measure_cells(
         ));
     }
     Ok(results)
+}
+
+/// The checks of the run's own lines and, where asked for, of every other law.
+fn check_samplers(plan: &Plan, scenes: &[Scene], common: &Common) -> Vec<SamplerRecord> {
+    let mut records = samplers::check_scenes(plan, scenes);
+    if let Some(controls) = plan.controls {
+        let laws = LineLaw::EXACT.len() + LineLaw::WRONG.len();
+        let progress = Progress::new(laws, controls.lines, common.quiet);
+        progress.begin("laws of lines", "checked");
+        records.extend(samplers::check_laws(plan, &progress));
+        progress.finish();
+    }
+    records
 }
 
 /// What a dry run prints.

@@ -1,0 +1,150 @@
+//! The law of the lines, checked in every run; and the look-alikes, which the same checks must reject.
+//!
+//! Hits of a tree's boxes are blind to most wrong laws of directions, so a run that only compared hits with areas would
+//! prove less than it seems to.
+
+use glam::DVec3;
+
+use crate::geom::{Aabb, Line, Span};
+use crate::rays::checks::{SamplerChecks, check_sampler};
+use crate::rays::{LineLaw, SurfaceLines};
+use crate::scene::Scene;
+use crate::stats::holm;
+
+use super::cell::Watcher;
+use super::hits_vs_area::line_seed;
+use super::plan::{Controls, Plan};
+use super::records::{SamplerRecord, Verdict};
+
+/// Most lines of a scene that are checked.
+const CHECKED: u64 = 1 << 18;
+
+/// The law that a run's own lines are recorded under.
+const OWN: &str = "study";
+
+/// Sides of the box that the laws are compared on: no two equal, or symmetry would hide faults.
+const SIDES: DVec3 = DVec3::new(1.0, 0.8, 0.5);
+
+/// The run's own lines through every scene's box, checked.
+pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
+    let check = |scene: &Scene| {
+        let n = plan.lines.at_least().min(CHECKED);
+        let (world, seed) = (scene.world, line_seed(plan.seed, scene));
+        let lines: Vec<Line> = SurfaceLines { world, seed }.range(0..n).collect();
+        let checks = check_sampler(&world, seed, n, |i| (lines[i as usize], Span::FULL));
+        record(OWN, true, &scene.name, n, checks)
+    };
+    scenes.iter().map(check).collect()
+}
+
+/// Every law there is through one box, checked.
+pub fn check_laws(plan: &Plan, watcher: &impl Watcher) -> Vec<SamplerRecord> {
+    let Some(Controls { lines, .. }) = plan.controls else {
+        return Vec::new();
+    };
+    let world = Aabb::new(DVec3::ZERO, SIDES);
+    let name = format!("box {} x {} x {}", SIDES.x, SIDES.y, SIDES.z);
+    let laws = LineLaw::EXACT.map(|law| (law, true)).into_iter();
+    let laws = laws.chain(LineLaw::WRONG.map(|law| (law, false)));
+    let check = |(law, exact): (LineLaw, bool)| {
+        watcher.lines_chosen(lines);
+        let checks = check_sampler(&world, plan.seed, lines, |i| {
+            law.sample(&world, plan.seed, i)
+        });
+        watcher.counted(lines);
+        record(law.name(), exact, &name, lines, checks)
+    };
+    laws.map(check).collect()
+}
+
+fn record(law: &str, exact: bool, scene: &str, lines: u64, p: SamplerChecks) -> SamplerRecord {
+    SamplerRecord {
+        law: law.into(),
+        exact,
+        scene: scene.into(),
+        lines,
+        boxes_p: p.boxes,
+        mean_chord_p: p.mean_chord,
+        fourth_chord_p: p.fourth_chord,
+        directions_p: p.directions,
+        triangles_p: p.triangles,
+    }
+}
+
+fn p_values(r: &SamplerRecord) -> [f64; 5] {
+    [
+        r.boxes_p,
+        r.mean_chord_p,
+        r.fourth_chord_p,
+        r.directions_p,
+        r.triangles_p,
+    ]
+}
+
+/// Whether the run's lines passed, and whether the checks told right laws from wrong ones.
+pub fn verdicts(plan: &Plan, records: &[SamplerRecord]) -> Vec<Verdict> {
+    let (own, laws): (Vec<&SamplerRecord>, _) = records.iter().partition(|r| r.law == OWN);
+    [own_verdict(plan, &own), law_verdict(plan, &laws)]
+        .into_iter()
+        .flatten()
+        .collect()
+}
+
+/// Holm over the five checks of every scene's lines.
+fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
+    let p: Vec<f64> = records.iter().flat_map(|r| p_values(r)).collect();
+    let worst = (0..p.len()).min_by(|&a, &b| p[a].total_cmp(&p[b]))?;
+    let adjusted = holm(&p)[worst];
+    let names = SamplerChecks::NAMES;
+    Some(Verdict {
+        name: "sampler".into(),
+        held: adjusted >= plan.expect.gate,
+        message: format!(
+            "{} checks of the lines ({}): smallest p-value {:.2e} ({}, {}), after Holm {:.3}",
+            p.len(),
+            names.join(", "),
+            p[worst],
+            names[worst % names.len()],
+            records[worst / names.len()].scene,
+            adjusted
+        ),
+    })
+}
+
+/// Wrong laws rejected, exact ones not.
+fn law_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
+    let Controls {
+        lines,
+        rejected_below,
+        accepted_above,
+    } = plan.controls?;
+    let least = |r: &SamplerRecord| p_values(r).into_iter().fold(1.0, f64::min);
+    let passes = |r: &SamplerRecord| {
+        if r.exact {
+            least(r) > accepted_above
+        } else {
+            least(r) < rejected_below
+        }
+    };
+    let failed: Vec<&str> = records
+        .iter()
+        .filter(|r| !passes(r))
+        .map(|r| r.law.as_str())
+        .collect();
+    let count = |exact| records.iter().filter(|r| r.exact == exact).count();
+    let failed = if failed.is_empty() {
+        String::new()
+    } else {
+        format!("; not so: {}", failed.join(", "))
+    };
+    Some(Verdict {
+        name: "controls".into(),
+        held: failed.is_empty(),
+        message: format!(
+            "{} wrong laws of lines rejected (p < {rejected_below:e} in at least one check), {} exact ones not \
+             (p > {accepted_above:e} in all), {lines} lines each{failed}",
+            count(false),
+            count(true)
+        ),
+    })
+}
