@@ -1,7 +1,7 @@
 //! The kd-tree: strategies that place planes, stop rules, building, traversal with probes, and the area prediction.
 //!
-//! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict`]),
-//! counted ones from the planes alone ([`traverse`], [`stream`]).
+//! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]),
+//! counted ones from the planes alone ([`traverse()`], [`stream`]).
 
 pub mod audit;
 pub mod build;

@@ -4,11 +4,11 @@ use sha2::{Digest, Sha256};
 
 use crate::kd::Rules;
 use crate::scene::Scene;
-use crate::stats::{holm, normal_quantile, simultaneous_quantile};
+use crate::stats::{normal_quantile, simultaneous_quantile};
 
 use super::cell::CellPlan;
-use super::records::{CellRecord, Estimate, SamplerRecord, Summary, Verdict};
-use super::{Plan, samplers};
+use super::records::{CellRecord, Estimate, SamplerRecord, Summary};
+use super::{Plan, verdicts};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 1;
@@ -108,112 +108,7 @@ pub fn summarise(plan: &Plan, cells: &[CellRecord], samplers: &[SamplerRecord]) 
         slope_within: plan.expect.slope_within,
         figure_scene: plan.figure.scene.clone(),
         figure_strategy: plan.figure.strategy.name(),
-        verdicts: verdicts(plan, cells, samplers, &estimates),
+        verdicts: verdicts::all(plan, cells, samplers, &estimates),
         estimates,
     }
-}
-
-fn verdicts(
-    plan: &Plan,
-    cells: &[CellRecord],
-    samplers: &[SamplerRecord],
-    estimates: &[Estimate],
-) -> Vec<Verdict> {
-    let verdict = |name: &str, held: bool, message: String| Verdict {
-        name: name.into(),
-        held,
-        message,
-    };
-    let place = |e: &Estimate| format!("{} on {}", e.strategy, e.scene);
-    let bound = plan.expect.slope_within;
-
-    // Equivalence: not "not rejected", but proved close.
-    let reach = |e: &&Estimate| (e.lo - 1.0).abs().max((e.hi - 1.0).abs());
-    let slopes: Vec<&Estimate> = estimates.iter().filter(|e| e.name == "slope").collect();
-    let widest = slopes
-        .iter()
-        .copied()
-        .max_by(|a, b| reach(a).total_cmp(&reach(b)));
-    let close = slopes.iter().filter(|e| reach(e) <= bound).count();
-    let slope_within = widest.map(|w| {
-        let message = format!(
-            "99 % interval of the slope within 1 +- {} % in {close} of {} cells; widest reach {:.3} % ({})",
-            100.0 * bound,
-            slopes.len(),
-            100.0 * reach(&w),
-            place(w)
-        );
-        verdict("slope-within", close == slopes.len(), message)
-    });
-
-    let family = 100.0 * plan.expect.family;
-    let covers = |e: &&&Estimate| covers(e);
-    let simultaneous = |name: &str, what: &str, chosen: Vec<&Estimate>| {
-        let held = chosen.iter().filter(covers).count();
-        let missed = chosen.iter().find(|e| !covers(e));
-        let missed = missed.map_or(String::new(), |e| {
-            format!("; missed: {} of {}", e.name, place(e))
-        });
-        let message = format!(
-            "{held} of {} simultaneous intervals (family {family} %) contain {what}{missed}",
-            chosen.len()
-        );
-        verdict(name, held == chosen.len(), message)
-    };
-    let counts = estimates
-        .iter()
-        .filter(|e| e.name != "slope" && e.name != "C")
-        .collect();
-
-    // Gate: Holm over slope, smallest tail and Hotelling of all cells.
-    let mut p_values = Vec::new();
-    for r in cells {
-        for (test, p) in [
-            ("slope", r.slope_p),
-            ("smallest tail", r.tail_p),
-            ("contrasts", r.hotelling_p),
-        ] {
-            p_values.extend(p.map(|p| (p, test, r)));
-        }
-    }
-    let adjusted = holm(&p_values.iter().map(|v| v.0).collect::<Vec<_>>());
-    let worst = (0..adjusted.len()).min_by(|&a, &b| p_values[a].0.total_cmp(&p_values[b].0));
-    let gate = worst.map(|i| {
-        let (p, test, r) = &p_values[i];
-        let message = format!(
-            "smallest of {} p-values is {:.2e} ({test}, {} on {}), after Holm {:.3}, at least {} wanted",
-            adjusted.len(),
-            p,
-            r.strategy,
-            r.scene,
-            adjusted[i],
-            plan.expect.gate
-        );
-        verdict("gate", adjusted[i] >= plan.expect.gate, message)
-    });
-
-    let visits: u64 = cells.iter().map(|r| r.inner_visits + r.leaf_visits).sum();
-    let identities = verdict(
-        "identities",
-        true,
-        format!(
-            "all integer identities held over {:.2e} visits; streams equal the plain traversal on every node",
-            visits as f64
-        ),
-    );
-    let mut all = vec![identities];
-    all.extend(samplers::verdicts(plan, samplers));
-    all.extend(slope_within);
-    if !slopes.is_empty() {
-        all.push(simultaneous("slopes-cover", "1", slopes));
-    }
-    all.push(simultaneous("counts-cover", "the predicted count", counts));
-    all.extend(gate);
-    all
-}
-
-/// Whether the simultaneous interval contains the prediction. Without variance both must be equal but for rounding.
-fn covers(e: &Estimate) -> bool {
-    let slack = 1e-12 * e.predicted.abs();
-    e.lo_all - slack <= e.predicted && e.predicted <= e.hi_all + slack
 }

@@ -8,5 +8,6 @@ pub mod records;
 pub mod samplers;
 pub mod scores;
 pub mod store;
+pub mod verdicts;
 
 pub use plan::{LineRule, Plan, PlanError};
