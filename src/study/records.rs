@@ -10,7 +10,8 @@ use serde::{Deserialize, Serialize};
 ///
 /// Rates are per line. `*_se` is the standard error of the counted rate, from the per-line scores of the first
 /// `pilot_lines` lines and the number of all `lines`. Fits and tests are empty where the tree has nothing to fit: no node
-/// but the root, or (free line) no two nodes of different area.
+/// but the root, or (free line) no two nodes of different area. A standard error is empty where the pilot cannot tell it:
+/// where the variance hangs on events too rare for the pilot's lines.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellRecord {
@@ -61,25 +62,25 @@ pub struct CellRecord {
     /// Inner nodes a line visits: counted.
     pub n_k_counted: f64,
     /// Standard error of `n_k_counted`.
-    pub n_k_se: f64,
+    pub n_k_se: Option<f64>,
     /// Leaves a line visits: predicted.
     pub n_b_predicted: f64,
     /// Leaves a line visits: counted.
     pub n_b_counted: f64,
     /// Standard error of `n_b_counted`.
-    pub n_b_se: f64,
+    pub n_b_se: Option<f64>,
     /// Object tests a line makes: predicted.
     pub n_t_predicted: f64,
     /// Object tests a line makes: counted.
     pub n_t_counted: f64,
     /// Standard error of `n_t_counted`.
-    pub n_t_se: f64,
+    pub n_t_se: Option<f64>,
     /// Tree cost C from the predicted counts.
     pub c_predicted: f64,
     /// Tree cost C from the counted ones.
     pub c_counted: f64,
     /// Standard error of `c_counted`.
-    pub c_se: f64,
+    pub c_se: Option<f64>,
     /// Slope through the origin, weights 1/(p(1-p)) from the predicted p.
     pub slope: Option<f64>,
     /// Standard error of `slope`, from per-line scores.
@@ -102,7 +103,7 @@ pub struct CellRecord {
     pub unexplained: Option<f64>,
     /// What 1 - R^2 is expected to be for a correct program: sum p(1-p) / (N sum p^2).
     pub unexplained_expected: Option<f64>,
-    /// Largest |z| over the nodes.
+    /// Largest |z| over the nodes that at least 10 lines are expected to hit and at least 10 to miss.
     pub max_abs_z: Option<f64>,
     /// Smallest exact two-sided binomial tail over the nodes.
     pub smallest_tail: Option<f64>,
@@ -196,7 +197,8 @@ pub struct TimingRecord {
     pub visits: u64,
 }
 
-/// The five checks of a law of lines through one box, as p-values. A row of `samplers.csv`.
+/// The five checks of a law of lines through one box, as p-values. A row of `samplers.csv`. A p-value is empty where the
+/// check hangs on too few lines to have one (chords of a very flat or long box).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SamplerRecord {
@@ -209,15 +211,15 @@ pub struct SamplerRecord {
     /// Lines checked.
     pub lines: u64,
     /// Hits of boxes: SA(K)/SA(R).
-    pub boxes_p: f64,
+    pub boxes_p: Option<f64>,
     /// Mean chord: 4V/SA.
-    pub mean_chord_p: f64,
+    pub mean_chord_p: Option<f64>,
     /// Mean fourth power of the chord: 12 V^2/(pi SA).
-    pub fourth_chord_p: f64,
+    pub fourth_chord_p: Option<f64>,
     /// Moments of the directions.
-    pub directions_p: f64,
+    pub directions_p: Option<f64>,
     /// Hits of triangles: 2A/SA(R).
-    pub triangles_p: f64,
+    pub triangles_p: Option<f64>,
 }
 
 /// `summary.json`: the answer of a run, without times.
@@ -233,6 +235,14 @@ pub struct Summary {
     pub question: String,
     /// Seed of the run.
     pub seed: u64,
+    /// The command that repeats the run.
+    pub command: String,
+    /// The stop rule of every tree.
+    pub stop: String,
+    /// Level of `lo` to `hi` of every estimate.
+    pub interval_level: f64,
+    /// Level of `lo_all` to `hi_all`, all estimates of the run together.
+    pub family_level: f64,
     /// True when fewer lines and smaller scenes were used: no figure of it is to be published.
     pub quick: bool,
     /// Slopes this near to 1 are what the run aims to show.
@@ -258,7 +268,7 @@ pub struct Verdict {
     pub message: String,
 }
 
-/// One estimate with its interval.
+/// One estimate with its interval. Interval and standard error are empty where the pilot cannot tell them.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Estimate {
     /// What is estimated: `slope`, `n_K`, `n_B`, `n_t`, `C`, ...
@@ -270,17 +280,17 @@ pub struct Estimate {
     /// Counted value.
     pub value: f64,
     /// Lower end of the 99 % interval.
-    pub lo: f64,
+    pub lo: Option<f64>,
     /// Upper end of the 99 % interval.
-    pub hi: f64,
+    pub hi: Option<f64>,
     /// Standard error.
-    pub se: f64,
+    pub se: Option<f64>,
     /// Lines behind it.
     pub n: u64,
     /// What theory says it should be.
     pub predicted: f64,
-    /// Lower end of the interval that holds for all cells of the run together (family 1 %).
-    pub lo_all: f64,
-    /// Upper end of the interval that holds for all cells of the run together (family 1 %).
-    pub hi_all: f64,
+    /// Lower end of the interval that holds for all estimates of the run together.
+    pub lo_all: Option<f64>,
+    /// Upper end of the interval that holds for all estimates of the run together.
+    pub hi_all: Option<f64>,
 }
