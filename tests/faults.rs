@@ -4,7 +4,10 @@
 mod common;
 
 use common::rules;
+use glam::DVec3;
+use sahlab::geom::{Objects, Triangle};
 use sahlab::kd::{Node, NodeKind, Rules, Strategy, Tree, build, predict};
+use sahlab::rays::Uniforms;
 use sahlab::scene::Scene;
 use sahlab::stats::holm;
 use sahlab::study::LineRule;
@@ -72,7 +75,10 @@ fn a_moved_plane_is_caught_wherever_it_matters() {
                     "{name} {strategy}, {lines} lines: sound tree rejected, {p}"
                 );
             }
-            for node in (0..tree.nodes.len()).filter(|&i| prediction.p[i] >= 0.05) {
+            // Trees of the object median have many such nodes: every third will do.
+            let step = if strategy == Strategy::Sah { 1 } else { 3 };
+            let nodes = (0..tree.nodes.len()).filter(|&i| prediction.p[i] >= 0.05);
+            for node in nodes.step_by(step) {
                 let Some(broken) = with_moved_plane(&tree, node) else {
                     continue;
                 };
@@ -136,4 +142,111 @@ fn levels_are_what_they_say() {
     }
     assert!(below[3][0] <= 36 && below[3][1] <= 12);
     assert!((364..=393).contains(&covered), "{covered}");
+}
+
+/// Scenes whose counts hang on rare events: a tiny dense cluster on a large floor, a flat terrain of grid cells, a needle
+/// beside a triangle. A pilot that has not met the event must not take it for impossible.
+#[test]
+fn rare_events_raise_no_false_alarm() {
+    let triangle = |a: DVec3, size: f64, turn: usize| {
+        let mut b = DVec3::ZERO;
+        (b[turn % 3], b[(turn + 1) % 3]) = (size, 0.3 * size);
+        let mut c = DVec3::ZERO;
+        (c[(turn + 1) % 3], c[(turn + 2) % 3]) = (size, 0.7 * size);
+        Triangle([a, a + b, a + c])
+    };
+    let stadium = |ratio: f64| {
+        let mut uniforms = Uniforms::starting_at(1, 0);
+        let mut triangles = vec![
+            Triangle([DVec3::ZERO, DVec3::X, DVec3::new(1.0, 1.0, 0.0)]),
+            Triangle([DVec3::ZERO, DVec3::new(1.0, 1.0, 0.0), DVec3::Y]),
+        ];
+        for i in 0..1000 {
+            let [x, y, z, _] = uniforms.next4();
+            let at = DVec3::new(0.3, 0.6, 0.0) + DVec3::new(x, y, z) / ratio;
+            triangles.push(triangle(at, 0.1 / ratio, i));
+        }
+        triangles
+    };
+    let mut terrain = Vec::new();
+    for i in 0..12 {
+        for j in 0..12 {
+            let corner = |a: usize, b: usize| {
+                DVec3::new(a as f64, b as f64, 0.001 * ((a * 7 + b * 3) % 5) as f64)
+            };
+            terrain.push(Triangle([corner(i, j), corner(i + 1, j), corner(i, j + 1)]));
+            terrain.push(Triangle([
+                corner(i + 1, j),
+                corner(i + 1, j + 1),
+                corner(i, j + 1),
+            ]));
+        }
+    }
+    let needle = vec![
+        Triangle([DVec3::ZERO, 1e6 * DVec3::X, DVec3::new(0.0, 1.0, 0.1)]),
+        Triangle([
+            DVec3::new(0.0, 0.2, 0.3),
+            DVec3::new(1.0, 0.2, 0.3),
+            DVec3::new(0.0, 0.9, 1.0),
+        ]),
+    ];
+    let grid: Vec<Triangle> = terrain
+        .iter()
+        .map(|t| Triangle(t.0.map(|p| DVec3::new(p.x, p.y, 0.0))))
+        .collect();
+    let mut unjudged = 0;
+    for (name, triangles) in [
+        ("stadium 30", stadium(30.0)),
+        ("stadium 100", stadium(100.0)),
+        ("stadium 1000", stadium(1000.0)),
+        ("terrain", terrain),
+        ("planar grid", grid),
+        ("needle", needle),
+    ] {
+        let objects = Objects {
+            triangles,
+            ..Objects::default()
+        };
+        let scene = Scene::new(name, objects, Vec::new()).unwrap();
+        for strategy in [
+            Strategy::Sah,
+            Strategy::ObjectMedian,
+            Strategy::MedianMidpoint,
+            Strategy::SpatialMedianLongest,
+        ] {
+            for seed in 0..15 {
+                let r = measure(
+                    &plan(&scene, rules(strategy, "cost-gain"), seed, 1 << 17),
+                    &(),
+                )
+                .unwrap()
+                .record;
+                let p: Vec<f64> = [r.slope_p, r.tail_p, r.hotelling_p]
+                    .into_iter()
+                    .flatten()
+                    .collect();
+                let least = holm(&p).into_iter().fold(1.0, f64::min);
+                // 360 gates: one below 1e-5 has a chance of 0.4 %.
+                assert!(least >= 1e-5, "{name} {strategy} seed {seed}: {p:?}");
+                for (what, predicted, counted, se) in [
+                    ("n_K", r.n_k_predicted, r.n_k_counted, r.n_k_se),
+                    ("n_B", r.n_b_predicted, r.n_b_counted, r.n_b_se),
+                    ("n_t", r.n_t_predicted, r.n_t_counted, r.n_t_se),
+                ] {
+                    let Some(se) = se else {
+                        unjudged += 1;
+                        continue;
+                    };
+                    // 1,080 intervals of 5 sigma: a miss has a chance of 0.06 %.
+                    let off = (counted - predicted).abs();
+                    assert!(
+                        off <= 5.0 * se + 1e-9,
+                        "{name} {strategy} seed {seed}: {what} {counted} for {predicted} ± {se}"
+                    );
+                }
+            }
+        }
+    }
+    println!("{unjudged} of 1080 counts hang on events too rare to judge");
+    assert!(unjudged < 540);
 }

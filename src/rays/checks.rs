@@ -11,19 +11,20 @@ use crate::stats::{binomial_tail, normal_p};
 
 use super::address::{Purpose, generator, uniform};
 
-/// The p-values of the five checks. Each is corrected for the number of comparisons inside it.
+/// The p-values of the five checks. Each is corrected for the number of comparisons inside it; `None` where
+/// a check does not apply (chords of a very flat or long box).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SamplerChecks {
     /// Hits of boxes: SA(K)/SA(R).
-    pub boxes: f64,
+    pub boxes: Option<f64>,
     /// Mean chord of the root: 4V/SA.
-    pub mean_chord: f64,
+    pub mean_chord: Option<f64>,
     /// Mean fourth power of the chord: 12 V^2/(pi SA).
-    pub fourth_chord: f64,
+    pub fourth_chord: Option<f64>,
     /// Moments of the directions of lines that hit the box, up to the fourth.
-    pub directions: f64,
+    pub directions: Option<f64>,
     /// Hits of triangles of any orientation: 2A/SA(R).
-    pub triangles: f64,
+    pub triangles: Option<f64>,
 }
 
 impl SamplerChecks {
@@ -37,7 +38,7 @@ impl SamplerChecks {
     ];
 
     /// The five p-values.
-    pub fn values(&self) -> [f64; 5] {
+    pub fn values(&self) -> [Option<f64>; 5] {
         [
             self.boxes,
             self.mean_chord,
@@ -46,15 +47,13 @@ impl SamplerChecks {
             self.triangles,
         ]
     }
-
-    /// The smallest of the five times five: the p-value of all together.
-    pub fn smallest(&self) -> f64 {
-        (5.0 * self.values().into_iter().fold(1.0, f64::min)).min(1.0)
-    }
 }
 
 const BOXES: usize = 30;
 const TRIANGLES: usize = 60;
+/// Shortest over longest side below which chords are not checked: their fourth power then hangs on the few lines that
+/// run along the box, and its mean has no normal law.
+const THINNEST: f64 = 1.0 / 25.0;
 /// Mean and mean square are summed per chunk, and chunks in order: the sums do not depend on threads.
 const CHUNK: u64 = 4096;
 
@@ -114,46 +113,71 @@ fn expected_moments(world: &Aabb) -> [f64; MOMENTS] {
 struct Sums {
     boxes: [u64; BOXES],
     triangles: [u64; TRIANGLES],
-    /// Sum and sum of squares of the moments, the chord and its fourth power, each less its expectation.
+    /// Sums of the moments, the chord and its fourth power, each less its expectation, and of their squares.
     deviations: [(f64, f64); MOMENTS + 2],
 }
 
+impl Sums {
+    const NONE: Self = Self {
+        boxes: [0; BOXES],
+        triangles: [0; TRIANGLES],
+        deviations: [(0.0, 0.0); MOMENTS + 2],
+    };
+
+    fn add(mut self, other: &Self) -> Self {
+        self.boxes
+            .iter_mut()
+            .zip(other.boxes)
+            .for_each(|(x, y)| *x += y);
+        self.triangles
+            .iter_mut()
+            .zip(other.triangles)
+            .for_each(|(x, y)| *x += y);
+        for (mine, theirs) in self.deviations.iter_mut().zip(other.deviations) {
+            *mine = (mine.0 + theirs.0, mine.1 + theirs.1);
+        }
+        self
+    }
+}
+
 /// Check a sampler with `lines` lines given by index. The boxes and triangles are those of `seed`.
+///
+/// The lines are carried to a box of size about 1 first, by a shift and a power of two, so that no area or volume
+/// overflows.
 pub fn check_sampler(
     world: &Aabb,
     seed: u64,
     lines: u64,
     sample: impl Fn(u64) -> (Line, Span) + Sync,
 ) -> SamplerChecks {
-    let (boxes, triangles) = targets(world, seed);
+    let scale = libm::ldexp(1.0, -libm::ilogb(world.extent().max_element()));
+    let corner = world.lo;
+    let world = Aabb::new(DVec3::ZERO, world.extent() * scale);
+    let (boxes, triangles) = targets(&world, seed);
     let area = world.surface_area();
     let volume = world.volume();
-    let mut expected = [0.0; MOMENTS + 2];
-    expected[..MOMENTS].copy_from_slice(&expected_moments(world));
     let diagonal = world.extent().length();
+    let mut expected = [0.0; MOMENTS + 2];
+    expected[..MOMENTS].copy_from_slice(&expected_moments(&world));
     expected[MOMENTS] = 4.0 * volume / area / diagonal;
-    expected[MOMENTS + 1] =
-        12.0 * volume * volume / (std::f64::consts::PI * area) / diagonal.powi(4);
+    let fourth = diagonal * diagonal * diagonal * diagonal;
+    expected[MOMENTS + 1] = 12.0 * volume * volume / (std::f64::consts::PI * area) / fourth;
 
     let chunk = |start: u64| {
-        let mut sums = Sums {
-            boxes: [0; BOXES],
-            triangles: [0; TRIANGLES],
-            deviations: [(0.0, 0.0); MOMENTS + 2],
-        };
+        let mut sums = Sums::NONE;
         for i in start..lines.min(start + CHUNK) {
             let (line, span) = sample(i);
-            let inside = world
-                .clip(&line, span)
-                .expect("a sampled line hits the box");
+            let line = Line::new((line.origin - corner) * scale, line.direction * scale);
+            // Rounding may carry a line that only touched the box past it: then its chord is 0.
+            let inside = world.clip(&line, span).unwrap_or(Span { t0: 0.0, t1: 0.0 });
             let chord = (inside.t1 - inside.t0) * line.direction.length() / diagonal;
             let square = chord * chord;
             let values = moments(line.direction)
                 .into_iter()
                 .chain([chord, square * square]);
             for ((value, expected), sum) in values.zip(expected).zip(&mut sums.deviations) {
-                sum.0 += value - expected;
-                sum.1 += (value - expected) * (value - expected);
+                let d = value - expected;
+                *sum = (sum.0 + d, sum.1 + d * d);
             }
             for (hits, b) in sums.boxes.iter_mut().zip(&boxes) {
                 *hits += u64::from(b.clip(&line, span).is_some());
@@ -169,41 +193,30 @@ pub fn check_sampler(
         .into_par_iter()
         .map(|c| chunk(c * CHUNK))
         .collect();
-    let total = chunks.into_iter().reduce(|mut a, b| {
-        a.boxes.iter_mut().zip(b.boxes).for_each(|(x, y)| *x += y);
-        a.triangles
-            .iter_mut()
-            .zip(b.triangles)
-            .for_each(|(x, y)| *x += y);
-        a.deviations
-            .iter_mut()
-            .zip(b.deviations)
-            .for_each(|(x, y)| *x = (x.0 + y.0, x.1 + y.1));
-        a
-    });
-    let total = total.expect("at least one line");
+    let total = chunks.iter().fold(Sums::NONE, Sums::add);
 
     let n = lines as f64;
     let p_of = |(sum, squares): (f64, f64)| {
         let mean = sum / n;
         let variance = squares / n - mean * mean;
-        normal_p(mean / (variance / n).sqrt().max(f64::MIN_POSITIVE))
+        (variance > 0.0).then(|| normal_p(mean / (variance / n).sqrt()))
     };
-    let worst =
-        |ps: &mut dyn Iterator<Item = f64>, m: usize| (m as f64 * ps.fold(1.0, f64::min)).min(1.0);
-    let tail = |(&hits, p): (&u64, f64)| binomial_tail(hits, lines, p);
+    let compact = world.extent().min_element() >= THINNEST * world.extent().max_element();
+    let worst = |ps: &mut dyn Iterator<Item = f64>, m: usize| {
+        ps.reduce(f64::min).map(|p| (m as f64 * p).min(1.0))
+    };
+    let tail =
+        |(&hits, p): (&u64, f64)| (0.0 < p && p < 1.0).then(|| binomial_tail(hits, lines, p));
     let box_p = boxes.iter().map(|b| b.surface_area() / area);
     let triangle_p = triangles.iter().map(|t| 2.0 * t.area() / area);
+    let (directions, chords) = total.deviations.split_at(MOMENTS);
     SamplerChecks {
-        boxes: worst(&mut total.boxes.iter().zip(box_p).map(tail), BOXES),
-        mean_chord: p_of(total.deviations[MOMENTS]),
-        fourth_chord: p_of(total.deviations[MOMENTS + 1]),
-        directions: worst(
-            &mut total.deviations[..MOMENTS].iter().map(|&d| p_of(d)),
-            MOMENTS,
-        ),
+        boxes: worst(&mut total.boxes.iter().zip(box_p).filter_map(tail), BOXES),
+        mean_chord: p_of(chords[0]).filter(|_| compact),
+        fourth_chord: p_of(chords[1]).filter(|_| compact),
+        directions: worst(&mut directions.iter().filter_map(|&d| p_of(d)), MOMENTS),
         triangles: worst(
-            &mut total.triangles.iter().zip(triangle_p).map(tail),
+            &mut total.triangles.iter().zip(triangle_p).filter_map(tail),
             TRIANGLES,
         ),
     }

@@ -11,8 +11,9 @@ use serde::Serialize;
 
 use super::tails::f_tail;
 
-/// Pivots below this fraction of a contrast's variance are what rounding leaves of a combination of the others.
-const COLLINEAR: f64 = 1e-10;
+/// Pivots below this fraction of a contrast's variance count as a combination of the others. Far above rounding: what is
+/// left of a contrast after the others would hang on a few observations, and its variance with it.
+const COLLINEAR: f64 = 1e-3;
 /// Deviations and standard deviations below this, relative to the larger of one and the largest standard deviation,
 /// are what rounding leaves of zero. (Contrasts are counts or scores per line, so one is their natural unit.)
 const ROUNDING: f64 = 1e-12;

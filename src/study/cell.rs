@@ -12,7 +12,8 @@ use crate::scene::Scene;
 use super::LineRule;
 use super::findings::Found;
 use super::records::{BinRecord, CellRecord, NodeRecord, TimingRecord};
-use super::scores::{Scoring, WEIGHTED, score_lines};
+use super::scores::{FIRST_SCORE, Scoring, WEIGHTED, score_lines};
+use super::spread::Spread;
 
 /// What a cell is made of.
 #[derive(Clone)]
@@ -98,11 +99,8 @@ pub fn compare(
     let scoring = Scoring::new(tree, prediction);
     let pilot = plan.lines.at_least().min(PILOT);
     let scored = score_lines(tree, &scoring, pilot, |range| lines.range(range));
-    let covariance = scored
-        .scores
-        .covariance()
-        .expect("a pilot of at least two lines");
-    let n = plan.lines.choose(covariance[WEIGHTED][WEIGHTED].sqrt());
+    let spread = Spread::new(tree, prediction, &scoring, &scored);
+    let n = plan.lines.choose(spread.deviation(FIRST_SCORE + WEIGHTED));
     watcher.lines_chosen(n);
 
     // All lines through the streams, then the same check that any count must pass.
@@ -122,7 +120,8 @@ pub fn compare(
         tree,
         prediction,
         scoring: &scoring,
-        scored: &scored,
+        spread: &spread,
+        pilot,
         counts: &counts,
     };
     let nodes = found.nodes();

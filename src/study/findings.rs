@@ -1,11 +1,17 @@
 //! From counts to records: what one cell's counts say of its predictions.
 
 use crate::kd::{Counts, NodeKind, Prediction, Tree};
-use crate::stats::{binomial_tail, hotelling, least_squares, student_p, weighted_least_squares};
+use crate::stats::{
+    Hotelling, binomial_tail, hotelling, least_squares, student_p, weighted_least_squares,
+};
 
 use super::cell::CellPlan;
 use super::records::{BinRecord, CellRecord, NodeRecord};
-use super::scores::{FREE, ORDINARY, Scored, Scoring, WEIGHTED};
+use super::scores::{CONTRASTS, FIRST_CONTRAST, FIRST_SCORE, FREE, ORDINARY, Scoring, WEIGHTED};
+use super::spread::Spread;
+
+/// Hits and misses expected of a node below which its z is far from normal.
+const LEAST_EXPECTED: f64 = 10.0;
 
 /// Everything known of a cell once it is counted.
 pub struct Found<'a> {
@@ -17,8 +23,10 @@ pub struct Found<'a> {
     pub prediction: &'a Prediction,
     /// What a visit adds to a line's scores.
     pub scoring: &'a Scoring,
-    /// The pilot's lines, scored one by one.
-    pub scored: &'a Scored,
+    /// How what is observed of a line varies.
+    pub spread: &'a Spread,
+    /// Lines behind the spread.
+    pub pilot: u64,
     /// All lines, counted.
     pub counts: &'a Counts,
 }
@@ -65,16 +73,6 @@ impl Found<'_> {
 
         // Work: the counts of a line are independent of other lines'; C is a linear form of them.
         let cost = rules.cost;
-        let covariance = self
-            .scored
-            .work
-            .covariance()
-            .expect("a pilot of at least two lines");
-        let variance = |a: [f64; 3]| -> f64 {
-            let terms = (0..9).map(|i| a[i / 3] * a[i % 3] * covariance[i]);
-            terms.sum::<f64>().max(0.0)
-        };
-        let se = |a: [f64; 3]| (variance(a) / n).sqrt();
         let (n_k, n_b, n_t) = (
             per_line(work.inner),
             per_line(work.leaves),
@@ -86,6 +84,13 @@ impl Found<'_> {
             n_t: p_t,
             ..
         } = *self.prediction;
+        let (c_predicted, c_counted) = (cost.cost(p_k, p_b, p_t), cost.cost(n_k, n_b, n_t));
+        let equal = |a: f64, b: f64| (a - b).abs() <= 1e-12 * a.abs();
+        let se = |weights: [f64; 3], predicted: f64, counted: f64| {
+            let form: Vec<_> = weights.into_iter().enumerate().collect();
+            self.spread
+                .standard_error(&form, n, equal(predicted, counted))
+        };
 
         let fit = self.fit(nodes);
         let tested = || nodes.iter().filter(|r| r.tail.is_some());
@@ -98,7 +103,7 @@ impl Found<'_> {
             stop: rules.stop.to_string(),
             seed: *seed,
             lines,
-            pilot_lines: self.scored.counts.lines,
+            pilot_lines: self.pilot,
             c_k: cost.c_k,
             c_b: cost.c_b,
             c_t: cost.c_t,
@@ -114,42 +119,50 @@ impl Found<'_> {
             object_tests: work.tests,
             n_k_predicted: p_k,
             n_k_counted: n_k,
-            n_k_se: se([1.0, 0.0, 0.0]),
+            n_k_se: se([1.0, 0.0, 0.0], p_k, n_k),
             n_b_predicted: p_b,
             n_b_counted: n_b,
-            n_b_se: se([0.0, 1.0, 0.0]),
+            n_b_se: se([0.0, 1.0, 0.0], p_b, n_b),
             n_t_predicted: p_t,
             n_t_counted: n_t,
-            n_t_se: se([0.0, 0.0, 1.0]),
-            c_predicted: cost.cost(p_k, p_b, p_t),
-            c_counted: cost.cost(n_k, n_b, n_t),
-            c_se: se([cost.c_k, cost.c_b, cost.c_t]),
-            slope: fit.slope.map(|s| s.0),
-            slope_se: fit.slope.map(|s| s.1),
-            slope_ols: fit.ordinary.map(|s| s.0),
-            slope_ols_se: fit.ordinary.map(|s| s.1),
-            free_intercept: fit.free.map(|f| f.intercept.0),
-            free_intercept_se: fit.free.map(|f| f.intercept.1),
-            free_slope: fit.free.map(|f| f.slope.0),
-            free_slope_se: fit.free.map(|f| f.slope.1),
-            free_p: fit.free.map(|f| f.p),
+            n_t_se: se([0.0, 0.0, 1.0], p_t, n_t),
+            c_predicted,
+            c_counted,
+            c_se: se([cost.c_k, cost.c_b, cost.c_t], c_predicted, c_counted),
+            slope: fit.slope.value,
+            slope_se: fit.slope.se,
+            slope_ols: fit.ordinary.value,
+            slope_ols_se: fit.ordinary.se,
+            free_intercept: fit.intercept.value,
+            free_intercept_se: fit.intercept.se,
+            free_slope: fit.free_slope.value,
+            free_slope_se: fit.free_slope.se,
+            free_p: fit.free_p,
             unexplained: fit.unexplained.map(|u| u.0),
             unexplained_expected: fit.unexplained.map(|u| u.1),
-            max_abs_z: tested().filter_map(|r| r.z).map(f64::abs).reduce(f64::max),
+            max_abs_z: tested()
+                .filter(|r| (LEAST_EXPECTED..=n - LEAST_EXPECTED).contains(&(n * r.p)))
+                .filter_map(|r| r.z)
+                .map(f64::abs)
+                .reduce(f64::max),
             smallest_tail,
-            slope_p: fit.slope.map(|(b, se)| self.p_of(b - 1.0, se)),
+            slope_p: fit
+                .slope
+                .value
+                .zip(fit.slope.se)
+                .map(|(b, se)| self.p_of(b - 1.0, se)),
             tail_p: smallest_tail.map(|t| (t * self.scoring.nodes as f64).min(1.0)),
-            hotelling_p: (self.scoring.nodes > 0).then_some(fit.contrasts.0),
-            contrasts: fit.contrasts.1,
+            hotelling_p: (fit.contrasts > 0).then_some(fit.contrasts_p),
+            contrasts: fit.contrasts,
         }
     }
 
     /// Two-sided p of a deviation. Without variance there may be no deviation either, but for rounding.
     fn p_of(&self, deviation: f64, se: f64) -> f64 {
-        if se < 1e-15 {
+        if se == 0.0 {
             return if deviation.abs() < 1e-12 { 1.0 } else { 0.0 };
         }
-        student_p(deviation / se, (self.scored.counts.lines - 1) as f64)
+        student_p(deviation / se, (self.pilot - 1) as f64)
     }
 
     fn fit(&self, nodes: &[NodeRecord]) -> Fits {
@@ -160,12 +173,14 @@ impl Found<'_> {
             y.push(r.hits as f64 / n as f64);
             weights.push(1.0 / (r.p * (1.0 - r.p)));
         }
-        let covariance = self
-            .scored
-            .scores
-            .covariance()
-            .expect("a pilot of at least two lines");
-        let se = |score: usize| (covariance[score][score] / n as f64).sqrt();
+        let measured = |score: usize, value: Option<f64>, expected: f64| {
+            let as_predicted = value.is_some_and(|v| (v - expected).abs() < 1e-12);
+            let form = [(FIRST_SCORE + score, 1.0)];
+            Measured {
+                value,
+                se: value.and_then(|_| self.spread.standard_error(&form, n as f64, as_predicted)),
+            }
+        };
 
         let weighted = weighted_least_squares(&p, 1, &y, &weights).ok();
         let ordinary = least_squares(&p, 1, &y).ok();
@@ -175,45 +190,54 @@ impl Found<'_> {
         } else {
             None
         };
+        let free = |i: usize| free.as_ref().map(|f| f.coefficients[i]);
+        let (a, b) = (free(0), free(1));
 
         let expected = {
             let noise: f64 = p.iter().map(|p| p * (1.0 - p)).sum();
             let signal: f64 = p.iter().map(|p| p * p).sum();
             noise / (n as f64 * signal)
         };
-        let pilot = self.scored.counts.lines;
+        let unexplained = ordinary.as_ref().and_then(|f| f.r_squared_uncentred);
+        let both = [FIRST_SCORE + FREE, FIRST_SCORE + FREE + 1];
+        let free_deviation = a.zip(b).map(|(a, b)| [a, b - 1.0]);
+        let free_test = free_deviation
+            .and_then(|d| self.test(&d, &both))
+            .map(|t| t.p);
+
         let hits = self.scoring.by_contrast(|i| self.counts.hits[i] as f64);
         let predicted = self.scoring.by_contrast(|i| self.prediction.p[i]);
-        let deviation: Vec<f64> = hits
-            .iter()
-            .zip(predicted)
-            .map(|(h, p)| h / n as f64 - p)
+        // Contrasts whose variance the pilot cannot tell are left out: their nodes have their own tails.
+        let kept: Vec<usize> = (0..CONTRASTS)
+            .filter(|c| self.spread.is_reliable(FIRST_CONTRAST + c))
             .collect();
-        let contrast_covariance = self
-            .scored
-            .contrasts
-            .covariance()
-            .expect("a pilot of at least two lines");
-        let test = hotelling(&deviation, &contrast_covariance, n, pilot);
+        let deviation: Vec<f64> = kept
+            .iter()
+            .map(|&c| hits[c] / n as f64 - predicted[c])
+            .collect();
+        let quantities: Vec<usize> = kept.iter().map(|c| FIRST_CONTRAST + c).collect();
+        let contrasts = self.test(&deviation, &quantities);
         Fits {
-            slope: weighted.map(|f| (f.coefficients[0], se(WEIGHTED))),
-            unexplained: ordinary
-                .as_ref()
-                .and_then(|f| f.r_squared_uncentred)
-                .map(|r| (1.0 - r, expected)),
-            ordinary: ordinary.map(|f| (f.coefficients[0], se(ORDINARY))),
-            free: free.map(|f| {
-                let (a, b) = (f.coefficients[0], f.coefficients[1]);
-                let s = |i: usize, j: usize| covariance[FREE + i][FREE + j];
-                let spread = [s(0, 0), s(0, 1), s(1, 0), s(1, 1)];
-                FreeLine {
-                    intercept: (a, se(FREE)),
-                    slope: (b, se(FREE + 1)),
-                    p: hotelling(&[a, b - 1.0], &spread, n, pilot).p,
-                }
-            }),
-            contrasts: (test.p, test.contrasts as u64),
+            slope: measured(WEIGHTED, weighted.map(|f| f.coefficients[0]), 1.0),
+            unexplained: unexplained.map(|r| (1.0 - r, expected)),
+            ordinary: measured(ORDINARY, ordinary.map(|f| f.coefficients[0]), 1.0),
+            intercept: measured(FREE, a, 0.0),
+            free_slope: measured(FREE + 1, b, 1.0),
+            free_p: free_test,
+            contrasts: contrasts.map_or(0, |t| t.contrasts as u64),
+            contrasts_p: contrasts.map_or(1.0, |t| t.p),
         }
+    }
+
+    /// Hotelling's test of a deviation of some quantities, or `None` if there is none or one of them is not reliable.
+    fn test(&self, deviation: &[f64], quantities: &[usize]) -> Option<Hotelling> {
+        let reliable = quantities.iter().all(|&q| self.spread.is_reliable(q));
+        let pairs = quantities
+            .iter()
+            .flat_map(|&i| quantities.iter().map(move |&j| (i, j)));
+        let covariance: Vec<f64> = pairs.map(|(i, j)| self.spread.covariance(i, j)).collect();
+        (reliable && !quantities.is_empty())
+            .then(|| hotelling(deviation, &covariance, self.counts.lines, self.pilot))
     }
 
     /// Nodes by p in eighths of a decade.
@@ -252,22 +276,21 @@ impl Found<'_> {
     }
 }
 
-/// Value and standard error.
-type Measured = (f64, f64);
-
-struct Fits {
-    slope: Option<Measured>,
-    ordinary: Option<Measured>,
-    free: Option<FreeLine>,
-    /// 1 - R^2 and its expectation.
-    unexplained: Option<(f64, f64)>,
-    /// Hotelling's p and the number of contrasts.
-    contrasts: (f64, u64),
+/// A value and its standard error, where they exist.
+struct Measured {
+    value: Option<f64>,
+    se: Option<f64>,
 }
 
-#[derive(Clone, Copy)]
-struct FreeLine {
-    intercept: Measured,
+struct Fits {
     slope: Measured,
-    p: f64,
+    ordinary: Measured,
+    intercept: Measured,
+    free_slope: Measured,
+    free_p: Option<f64>,
+    /// 1 - R^2 and its expectation.
+    unexplained: Option<(f64, f64)>,
+    /// Independent contrasts tested, and Hotelling's p.
+    contrasts: u64,
+    contrasts_p: f64,
 }

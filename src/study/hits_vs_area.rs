@@ -13,6 +13,9 @@ use super::{Plan, verdicts};
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 1;
 
+/// Level of an estimate's own interval.
+const LEVEL: f64 = 0.99;
+
 /// The cells of a plan in canonical order: scenes, then strategies.
 pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     let mut cells = Vec::new();
@@ -70,28 +73,29 @@ fn hex(bytes: &[u8]) -> String {
 /// The run's answer: estimates with intervals, and whether the expectations held.
 pub fn summarise(plan: &Plan, cells: &[CellRecord], samplers: &[SamplerRecord]) -> Summary {
     let mut estimates = Vec::new();
-    // Slope and three counts of every cell are judged together; C is a form of the counts.
-    let judged = cells.len() * 4;
-    let one = normal_quantile(0.99);
+    // Slope, three counts and C of every cell are judged together.
+    let judged = cells.len() * 5;
+    let one = normal_quantile(LEVEL);
     let all = simultaneous_quantile(1.0 - plan.expect.family, judged);
     for r in cells {
-        let mut push = |name: &str, value: f64, se: f64, predicted: f64| {
+        let mut push = |name: &str, value: f64, se: Option<f64>, predicted: f64| {
+            let at = |sigmas: f64| se.map(|se| value + sigmas * se);
             estimates.push(Estimate {
                 name: name.into(),
                 scene: r.scene.clone(),
                 strategy: r.strategy.clone(),
                 value,
-                lo: value - one * se,
-                hi: value + one * se,
+                lo: at(-one),
+                hi: at(one),
                 se,
                 n: r.lines,
                 predicted,
-                lo_all: value - all * se,
-                hi_all: value + all * se,
+                lo_all: at(-all),
+                hi_all: at(all),
             });
         };
-        if let (Some(slope), Some(se)) = (r.slope, r.slope_se) {
-            push("slope", slope, se, 1.0);
+        if let Some(slope) = r.slope {
+            push("slope", slope, r.slope_se, 1.0);
         }
         push("n_K", r.n_k_counted, r.n_k_se, r.n_k_predicted);
         push("n_B", r.n_b_counted, r.n_b_se, r.n_b_predicted);
@@ -104,6 +108,10 @@ pub fn summarise(plan: &Plan, cells: &[CellRecord], samplers: &[SamplerRecord]) 
         kind: "hits-vs-area".into(),
         question: plan.question.clone(),
         seed: plan.seed,
+        command: plan.command.clone(),
+        stop: plan.stop.to_string(),
+        interval_level: LEVEL,
+        family_level: 1.0 - plan.expect.family,
         quick: plan.quick,
         slope_within: plan.expect.slope_within,
         figure_scene: plan.figure.scene.clone(),

@@ -7,6 +7,7 @@ pub mod plan;
 pub mod records;
 pub mod samplers;
 pub mod scores;
+pub mod spread;
 pub mod store;
 pub mod verdicts;
 

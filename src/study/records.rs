@@ -198,7 +198,7 @@ pub struct TimingRecord {
 }
 
 /// The five checks of a law of lines through one box, as p-values. A row of `samplers.csv`. A p-value is empty where the
-/// check hangs on too few lines to have one (chords of a very flat or long box).
+/// check does not apply (chords of a very flat or long box).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SamplerRecord {

@@ -71,7 +71,7 @@ fn record(law: &str, exact: bool, scene: &str, lines: u64, p: SamplerChecks) -> 
     }
 }
 
-fn p_values(r: &SamplerRecord) -> [f64; 5] {
+fn p_values(r: &SamplerRecord) -> [Option<f64>; 5] {
     [
         r.boxes_p,
         r.mean_chord_p,
@@ -92,10 +92,18 @@ pub fn verdicts(plan: &Plan, records: &[SamplerRecord]) -> Vec<Verdict> {
 
 /// Holm over the five checks of every scene's lines.
 fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
-    let p: Vec<f64> = records.iter().flat_map(|r| p_values(r)).collect();
-    let worst = (0..p.len()).min_by(|&a, &b| p[a].total_cmp(&p[b]))?;
-    let adjusted = holm(&p)[worst];
     let names = SamplerChecks::NAMES;
+    let named = |r: &&SamplerRecord| {
+        let scene = r.scene.clone();
+        names
+            .into_iter()
+            .zip(p_values(r))
+            .filter_map(move |(name, p)| Some((p?, name, scene.clone())))
+    };
+    let checks: Vec<(f64, &str, String)> = records.iter().flat_map(named).collect();
+    let worst = (0..checks.len()).min_by(|&a, &b| checks[a].0.total_cmp(&checks[b].0))?;
+    let p: Vec<f64> = checks.iter().map(|c| c.0).collect();
+    let adjusted = holm(&p)[worst];
     Some(Verdict {
         name: "sampler".into(),
         held: adjusted >= plan.expect.gate,
@@ -104,8 +112,8 @@ fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
             p.len(),
             names.join(", "),
             p[worst],
-            names[worst % names.len()],
-            records[worst / names.len()].scene,
+            checks[worst].1,
+            checks[worst].2,
             adjusted
         ),
     })
@@ -118,7 +126,7 @@ fn law_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
         rejected_below,
         accepted_above,
     } = plan.controls?;
-    let least = |r: &SamplerRecord| p_values(r).into_iter().fold(1.0, f64::min);
+    let least = |r: &SamplerRecord| p_values(r).into_iter().flatten().fold(1.0, f64::min);
     let passes = |r: &SamplerRecord| {
         if r.exact {
             least(r) > accepted_above

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 use crate::geom::{Aabb, Line, Span};
 use crate::kd::traverse::traverse_line;
 use crate::kd::{Counts, NodeKind, Prediction, Probe, Stack, Tree, Work};
-use crate::stats::{IntegerCovariance, ScoreMoments};
 
 /// Contrasts for Hotelling's test: counts of visited nodes by size (8 classes of equal expected hits), by thinnest side
 /// (x, y), by position (upper half in x, y, z), and of leaves.
@@ -94,6 +93,18 @@ impl Scoring {
         }
     }
 
+    /// What one visit of node `i` adds to everything observed of a line.
+    pub fn adds(&self, tree: &Tree, i: usize) -> [f64; OBSERVED] {
+        let mut added = [0.0; OBSERVED];
+        match tree.nodes[i].kind() {
+            NodeKind::Inner { .. } => added[0] = 1.0,
+            NodeKind::Leaf { count, .. } => (added[1], added[2]) = (1.0, f64::from(count)),
+        }
+        bits(self.contrasts[i]).for_each(|c| added[FIRST_CONTRAST + c] = 1.0);
+        added[FIRST_SCORE..].copy_from_slice(&self.scores[i]);
+        added
+    }
+
     /// Sum over the nodes that take part of `value` by contrast.
     pub fn by_contrast(&self, value: impl Fn(usize) -> f64) -> [f64; CONTRASTS] {
         let mut sums = [0.0; CONTRASTS];
@@ -138,19 +149,22 @@ fn shape(node: &Aabb, world: &Aabb) -> u16 {
     u16::from(x <= y && x <= z) | u16::from(y < x && y <= z) << 1 | upper << 2
 }
 
-/// Scores, counts and hits of some lines, traversed one by one.
+/// Everything observed of a line: inner nodes, leaves, tests; then the contrasts; then the scores.
+pub const OBSERVED: usize = 3 + CONTRASTS + SCORES;
+/// Where the contrasts begin among what is observed.
+pub const FIRST_CONTRAST: usize = 3;
+/// Where the scores begin among what is observed.
+pub const FIRST_SCORE: usize = 3 + CONTRASTS;
+
+/// What was observed of each line, and the hits of all, by the plain traversal.
 pub struct Scored {
-    /// Means and covariance of the scores.
-    pub scores: ScoreMoments<SCORES>,
-    /// Of (n_K, n_B, n_t).
-    pub work: IntegerCovariance,
-    /// Of the contrasts.
-    pub contrasts: IntegerCovariance,
-    /// Hits per node by the plain traversal.
+    /// One row a line.
+    pub lines: Vec<[f64; OBSERVED]>,
+    /// Hits per node.
     pub counts: Counts,
 }
 
-/// Lines summed in sequence; their sums are merged by index, so floating-point results do not depend on threads.
+/// Lines that one thread takes at a time; rows stand in the order of the lines, whatever the threads.
 const CHUNK: u64 = 4096;
 
 /// Score the first `lines` lines given by `make(start..end)`.
@@ -163,15 +177,10 @@ pub fn score_lines<I>(
 where
     I: Iterator<Item = Line>,
 {
-    let empty = || Scored {
-        scores: ScoreMoments::default(),
-        work: IntegerCovariance::new(3),
-        contrasts: IntegerCovariance::new(CONTRASTS),
-        counts: Counts::new(tree),
-    };
     let chunk = |c: u64| {
-        let mut scored = empty();
+        let mut counts = Counts::new(tree);
         let mut stack = Stack::default();
+        let mut rows = Vec::new();
         for line in make(c * CHUNK..lines.min((c + 1) * CHUNK)) {
             let mut watch = LineScore {
                 scoring,
@@ -179,33 +188,31 @@ where
                 contrasts: [0; CONTRASTS],
             };
             let mut work = Work::default();
-            scored.counts.lines += 1;
-            traverse_line(
-                tree,
-                &line,
-                Span::FULL,
-                &mut stack,
-                (&mut scored.counts, (&mut work, &mut watch)),
-            );
-            scored.scores.push(watch.scores);
-            scored
-                .work
-                .push(&[work.inner as u32, work.leaves as u32, work.tests as u32]);
-            scored.contrasts.push(&watch.contrasts);
+            counts.lines += 1;
+            let probes = (&mut counts, (&mut work, &mut watch));
+            traverse_line(tree, &line, Span::FULL, &mut stack, probes);
+            let work = [work.inner, work.leaves, work.tests].map(|count| count as f64);
+            let mut row = [0.0; OBSERVED];
+            row[..FIRST_CONTRAST].copy_from_slice(&work);
+            row[FIRST_CONTRAST..FIRST_SCORE].copy_from_slice(&watch.contrasts.map(f64::from));
+            row[FIRST_SCORE..].copy_from_slice(&watch.scores);
+            rows.push(row);
         }
-        scored
+        (rows, counts)
     };
-    let chunks: Vec<Scored> = (0..lines.div_ceil(CHUNK))
+    let chunks: Vec<_> = (0..lines.div_ceil(CHUNK))
         .into_par_iter()
         .map(chunk)
         .collect();
-    chunks.into_iter().fold(empty(), |mut all, part| {
-        all.scores.merge(&part.scores);
-        all.work.merge(&part.work);
-        all.contrasts.merge(&part.contrasts);
-        all.counts = all.counts.merge(&part.counts);
-        all
-    })
+    let mut all = Scored {
+        lines: Vec::new(),
+        counts: Counts::new(tree),
+    };
+    for (rows, counts) in chunks {
+        all.lines.extend(rows);
+        all.counts = all.counts.merge(&counts);
+    }
+    all
 }
 
 /// Adds up one line's scores as it goes.

@@ -13,10 +13,8 @@ pub fn all(
     samplers: &[SamplerRecord],
     estimates: &[Estimate],
 ) -> Vec<Verdict> {
-    let (slopes, others): (Vec<&Estimate>, Vec<_>) =
+    let (slopes, counts): (Vec<&Estimate>, Vec<_>) =
         estimates.iter().partition(|e| e.name == "slope");
-    // C is a form of the counts: judging it too would judge them twice.
-    let counts: Vec<&Estimate> = others.into_iter().filter(|e| e.name != "C").collect();
     let mut all = vec![identities(cells)];
     all.extend(samplers::verdicts(plan, samplers));
     all.extend(slope_within(plan, &slopes));
@@ -51,44 +49,78 @@ fn identities(cells: &[CellRecord]) -> Verdict {
 /// Equivalence: the slope is not merely "not rejected", but proved to be close to 1.
 fn slope_within(plan: &Plan, slopes: &[&Estimate]) -> Option<Verdict> {
     let bound = plan.expect.slope_within;
-    let reach = |e: &Estimate| (e.lo - 1.0).abs().max((e.hi - 1.0).abs());
-    let widest = slopes.iter().max_by(|a, b| reach(a).total_cmp(&reach(b)))?;
-    let close = slopes.iter().filter(|e| reach(e) <= bound).count();
+    let reach = |e: &Estimate| Some((e.lo? - 1.0).abs().max((e.hi? - 1.0).abs()));
+    let judged: Vec<(f64, &Estimate)> = slopes
+        .iter()
+        .filter_map(|e| Some((reach(e)?, *e)))
+        .collect();
+    let (widest, at) = judged.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
+    let close = judged.iter().filter(|(reach, _)| *reach <= bound).count();
     Some(Verdict {
         name: "slope-within".into(),
-        held: close == slopes.len(),
+        held: close == judged.len(),
         message: format!(
-            "99 % interval of the slope within 1 ± {} % in {close} of {} cells; widest reach {:.3} % ({})",
+            "99 % interval of the slope within 1 ± {} % in {close} of {} cells; widest reach {:.3} % ({}){}",
             100.0 * bound,
-            slopes.len(),
-            100.0 * reach(widest),
-            place(&widest.strategy, &widest.scene)
+            judged.len(),
+            100.0 * widest,
+            place(&at.strategy, &at.scene),
+            unjudged(slopes.len() - judged.len())
         ),
     })
+}
+
+/// What is said of estimates without an interval.
+fn unjudged(count: usize) -> String {
+    if count == 0 {
+        return String::new();
+    }
+    format!(
+        "; {count} not judged: their variance hangs on events too rare for the pilot, their nodes' tails stand in"
+    )
 }
 
 /// The intervals of all cells together contain what theory says.
 fn simultaneous(plan: &Plan, name: &str, what: &str, estimates: &[&Estimate]) -> Option<Verdict> {
-    let missed: Vec<&&Estimate> = estimates.iter().filter(|e| !covers(e)).collect();
-    let told = missed.first().map_or(String::new(), |e| {
-        format!("; missed: {} of {}", e.name, place(&e.strategy, &e.scene))
-    });
+    let judged: Vec<(bool, &Estimate)> = estimates
+        .iter()
+        .filter_map(|e| Some((covers(e)?, *e)))
+        .collect();
+    let missed: Vec<String> = judged
+        .iter()
+        .filter(|(covered, _)| !covered)
+        .map(|(_, e)| {
+            format!(
+                "{} of {} ({} for {})",
+                e.name,
+                place(&e.strategy, &e.scene),
+                e.value,
+                e.predicted
+            )
+        })
+        .collect();
+    let told = if missed.is_empty() {
+        String::new()
+    } else {
+        format!("; missed: {}", missed.join(", "))
+    };
     (!estimates.is_empty()).then(|| Verdict {
         name: name.into(),
         held: missed.is_empty(),
         message: format!(
-            "{} of {} simultaneous intervals (family {} %) contain {what}{told}",
-            estimates.len() - missed.len(),
-            estimates.len(),
-            100.0 * plan.expect.family
+            "{} of {} simultaneous intervals (family {} %) contain {what}{told}{}",
+            judged.len() - missed.len(),
+            judged.len(),
+            100.0 * plan.expect.family,
+            unjudged(estimates.len() - judged.len())
         ),
     })
 }
 
-/// Whether the simultaneous interval contains the prediction. Without variance both must be equal but for rounding.
-fn covers(e: &Estimate) -> bool {
+/// Whether the simultaneous interval contains the prediction, but for rounding; `None` without an interval.
+fn covers(e: &Estimate) -> Option<bool> {
     let slack = 1e-12 * e.predicted.abs();
-    e.lo_all - slack <= e.predicted && e.predicted <= e.hi_all + slack
+    Some(e.lo_all? - slack <= e.predicted && e.predicted <= e.hi_all? + slack)
 }
 
 /// Holm over slope, smallest tail and contrasts of all cells.
