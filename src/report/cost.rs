@@ -7,16 +7,24 @@ use super::axis::{Axis, extent};
 use super::figure::{Figure, Pen};
 use super::glyphs::SUB;
 use super::legend::{Key, LEGEND_LEADING, legend, legend_rows};
-use super::number::{Z99, significant};
+use super::number::{Z99, decimals_for, digits_for, significant};
 use super::palette::{INK, MUTED, faded};
 use super::panel::{Frame, Panel};
-use super::series::{Series, provenance};
-use super::text::{LEADING, MEDIUM, SMALL, title_and_caption, wrap};
+use super::series::{Series, constants, provenance};
+use super::text::{LEADING, MEDIUM, SMALL, caption_lines, text_width, title_and_caption};
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Does the cost the heuristic predicts equal the cost counted?";
 const WIDTH: f64 = 518.4;
 const LEFT: f64 = 8.0;
+/// Left edge of the first panel of deviations.
+const FIRST: f64 = 284.0;
+
+/// Per cent by which rounding may set a count that theory fixes exactly apart from its prediction.
+const ROUNDING: f64 = 1e-9;
+
+/// The vertical axes reach at least so many per cent.
+const LEAST_REACH: f64 = 0.01;
 
 /// A predicted count or cost beside the counted one and its standard error.
 #[derive(Clone, Copy)]
@@ -25,53 +33,87 @@ pub struct Pair {
     pub predicted: f64,
     /// From lines.
     pub counted: f64,
-    /// Of `counted`.
-    pub se: f64,
+    /// Of `counted`, where the pilot can tell it.
+    pub se: Option<f64>,
+}
+
+/// counted/predicted - 1 and half of its 99 % interval, in per cent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Deviation {
+    /// counted/predicted - 1.
+    pub percent: f64,
+    /// Half of the interval, where there is one.
+    pub half: Option<f64>,
 }
 
 impl Pair {
     /// The four pairs of a cell: n_K, n_B, n_t, C.
     pub fn all(cell: &CellRecord) -> [Pair; 4] {
+        let pair = |predicted, counted, se| Pair {
+            predicted,
+            counted,
+            se,
+        };
         [
-            Pair {
-                predicted: cell.n_k_predicted,
-                counted: cell.n_k_counted,
-                se: cell.n_k_se,
-            },
-            Pair {
-                predicted: cell.n_b_predicted,
-                counted: cell.n_b_counted,
-                se: cell.n_b_se,
-            },
-            Pair {
-                predicted: cell.n_t_predicted,
-                counted: cell.n_t_counted,
-                se: cell.n_t_se,
-            },
-            Pair {
-                predicted: cell.c_predicted,
-                counted: cell.c_counted,
-                se: cell.c_se,
-            },
+            pair(cell.n_k_predicted, cell.n_k_counted, cell.n_k_se),
+            pair(cell.n_b_predicted, cell.n_b_counted, cell.n_b_se),
+            pair(cell.n_t_predicted, cell.n_t_counted, cell.n_t_se),
+            pair(cell.c_predicted, cell.c_counted, cell.c_se),
         ]
     }
 
-    /// counted/predicted - 1 and half its 99 % interval, in per cent; None where nothing is predicted.
-    pub fn deviation(&self) -> Option<(f64, f64)> {
-        let percent = 100.0 / self.predicted;
-        let deviation = (
-            percent * (self.counted - self.predicted),
-            percent * Z99 * self.se,
-        );
-        (self.predicted > 0.0 && deviation.0.is_finite() && deviation.1.is_finite())
-            .then_some(deviation)
+    /// The tree cost C of a cell.
+    pub fn cost(cell: &CellRecord) -> Pair {
+        let [.., cost] = Pair::all(cell);
+        cost
+    }
+
+    /// Half of the 99 % interval of `counted`.
+    pub fn half(&self) -> Option<f64> {
+        self.se.map(|se| Z99 * se).filter(|half| half.is_finite())
+    }
+
+    /// Decimals both numbers are shown with: two digits of the error, or four of an unknown error's number.
+    pub fn decimals(&self) -> usize {
+        self.half()
+            .map_or_else(|| digits_for(self.counted, 4), decimals_for)
+    }
+
+    /// How far counted is from predicted; None where nothing is predicted.
+    pub fn deviation(&self) -> Option<Deviation> {
+        let scale = 100.0 / self.predicted;
+        let percent = scale * (self.counted - self.predicted);
+        let half = self.half().map(|half| scale * half);
+        (self.predicted > 0.0 && percent.is_finite()).then_some(Deviation { percent, half })
     }
 }
 
+impl Deviation {
+    /// Whether the interval holds 0. Where theory fixes a count exactly there is no scatter, only rounding.
+    fn holds_zero(&self) -> Option<bool> {
+        self.half.map(|half| self.percent.abs() <= half + ROUNDING)
+    }
+
+    /// The furthest the bar, or else the mark, is from 0.
+    fn reach(&self) -> f64 {
+        self.percent.abs() + self.half.unwrap_or(0.0)
+    }
+}
+
+/// Half of the vertical axis: every bar, and never so little that its ticks show rounding.
+fn reach(cells: &[CellRecord]) -> f64 {
+    let deviations = cells
+        .iter()
+        .flat_map(Pair::all)
+        .filter_map(|p| p.deviation());
+    let most = extent(deviations.map(|deviation| deviation.reach()));
+    (1.08 * most.map_or(1.0, |(_, most)| most)).max(LEAST_REACH)
+}
+
 /// The figure of all cells.
-pub fn figure(cells: &[CellRecord]) -> Result<Figure, ReportError> {
+pub fn figure(cells: &[CellRecord], quick: bool) -> Result<Figure, ReportError> {
     let series = Series::to_draw(cells)?;
-    let caption = wrap(&caption(cells), WIDTH - 2.0 * LEFT);
+    let caption = caption_lines(caption(cells), WIDTH - 2.0 * LEFT, quick);
     let keys: Vec<_> = series
         .strategies
         .iter()
@@ -94,33 +136,27 @@ pub fn figure(cells: &[CellRecord]) -> Result<Figure, ReportError> {
             Frame {
                 left: 44.0,
                 top,
-                right: 228.0,
+                right: 226.0,
                 bottom,
             },
         );
-        let deviations: Vec<_> = cells
-            .iter()
-            .flat_map(Pair::all)
-            .filter_map(|pair| pair.deviation())
-            .collect();
-        let reach = extent(
-            deviations
-                .iter()
-                .map(|(percent, half)| percent.abs() + half),
-        );
-        let reach = 1.08 * reach.map_or(1.0, |(_, most)| most).max(1e-9);
-        let middle = (255.0, (top + bottom) / 2.0);
+        let reach = reach(cells);
+        let y = Axis::linear("", -reach, reach, 4);
+        let labels = y.ticks.iter().map(|tick| text_width(&tick.label, SMALL));
+        // Beside the widest tick label.
+        let side = FIRST - 7.5 - labels.fold(0.0, f64::max);
+        let middle = (side, (top + bottom) / 2.0);
         let label = "counted / predicted − 1, per cent";
         pen.upright(label, middle, MEDIUM, INK, (HPos::Center, VPos::Bottom));
         for quantity in 0..4 {
             let (column, row) = (f64::from(quantity % 2), f64::from(quantity / 2));
             let frame = Frame {
-                left: 282.0 + 122.0 * column,
+                left: FIRST + 122.0 * column,
                 top: top + 106.0 * row,
-                right: 388.0 + 122.0 * column,
+                right: FIRST + 106.0 + 122.0 * column,
                 bottom: top + 78.0 + 106.0 * row,
             };
-            deviation(pen, cells, &series, quantity as usize, frame, reach);
+            deviation(pen, cells, &series, quantity as usize, frame, y.clone());
         }
     }))
 }
@@ -148,6 +184,7 @@ fn costs(pen: &Pen, cells: &[CellRecord], series: &Series, frame: Frame) {
             faded(look.colour, 0.8),
         );
     }
+    panel.heading("(a) C", frame.left, 4.0);
     panel.note("line: counted = predicted", true);
 }
 
@@ -158,7 +195,7 @@ fn deviation(
     series: &Series,
     quantity: usize,
     frame: Frame,
-    reach: f64,
+    mut y: Axis,
 ) {
     let pairs: Vec<_> = cells
         .iter()
@@ -175,7 +212,6 @@ fn deviation(
     } else {
         "predicted, per line"
     };
-    let mut y = Axis::linear("", -reach, reach, 4);
     if !first_column {
         y.ticks.iter_mut().for_each(|tick| tick.label.clear());
     }
@@ -191,29 +227,34 @@ fn deviation(
         INK,
         0.7,
     );
-    let (mut shown, mut holding) = (0, 0);
+    let (mut judged, mut holding) = (0, 0);
     for (pair, look) in pairs {
-        let Some((percent, half)) = pair.deviation() else {
+        let Some(deviation) = pair.deviation() else {
             continue;
         };
-        let (x, y) = (pair.predicted, percent);
-        panel.line(
-            &[(x, y - half), (x, y + half)],
-            faded(look.colour, 0.45),
-            0.7,
-        );
+        let (x, y) = (pair.predicted, deviation.percent);
+        if let Some(half) = deviation.half {
+            let bar = [(x, y - half), (x, y + half)];
+            panel.line(&bar, faded(look.colour, 0.45), 0.7);
+        }
         panel.mark((x, y), look.marker, 1.5, faded(look.colour, 0.85));
-        shown += 1;
-        holding += usize::from(percent.abs() <= half);
+        if let Some(holds) = deviation.holds_zero() {
+            judged += 1;
+            holding += usize::from(holds);
+        }
     }
     let name = [
-        format!("n{SUB}K  inner nodes"),
-        format!("n{SUB}B  leaves"),
-        format!("n{SUB}t  tests"),
-        "C".to_owned(),
+        format!("(b) n{SUB}K"),
+        format!("(c) n{SUB}B"),
+        format!("(d) n{SUB}t"),
+        "(e) C".to_owned(),
     ];
     panel.heading(&name[quantity], frame.left, 4.0);
-    let tally = format!("{holding} of {shown}");
+    let tally = if judged == 0 {
+        String::new()
+    } else {
+        format!("{holding} of {judged}")
+    };
     pen.text(
         &tally,
         (frame.right, frame.top - 4.0),
@@ -224,25 +265,107 @@ fn deviation(
 }
 
 fn caption(cells: &[CellRecord]) -> String {
-    let worst = cells
+    let costs = cells.iter().map(Pair::cost);
+    let worst = costs.filter_map(|cost| Some(cost.deviation()?.percent.abs()));
+    let worst = worst.fold(0.0, f64::max);
+    let costs = constants(cells).map_or(String::new(), |[k, b, t]| {
+        format!(", c{SUB}K = {k}, c{SUB}B = {b}, c{SUB}t = {t}")
+    });
+    let mut deviations = cells
         .iter()
-        .filter_map(|cell| Pair::all(cell)[3].deviation());
-    let worst = worst.map(|(percent, _)| percent.abs()).fold(0.0, f64::max);
-    let constants = |cell: &CellRecord| (cell.c_k, cell.c_b, cell.c_t);
-    let costs = match cells {
-        [first, rest @ ..] if rest.iter().all(|cell| constants(cell) == constants(first)) => {
-            format!(
-                ", c{SUB}K = {}, c{SUB}B = {}, c{SUB}t = {}",
-                first.c_k, first.c_b, first.c_t
-            )
-        }
-        _ => String::new(),
+        .flat_map(Pair::all)
+        .filter_map(|p| p.deviation());
+    let bare = if deviations.any(|deviation| deviation.half.is_none()) {
+        " (none where the pilot cannot tell it)"
+    } else {
+        ""
     };
     format!(
         "C = c{SUB}K n{SUB}K + c{SUB}B n{SUB}B + c{SUB}t n{SUB}t{costs}. Theory: counted and predicted are equal in \
-         expectation. Right: bars are 99 % intervals, and the numbers say how many of them hold 0. Largest deviation of \
-         C: {} %. {}",
+         expectation. (b) to (e): inner nodes n{SUB}K, leaves n{SUB}B, object tests n{SUB}t and C; bars are 99 % \
+         intervals{bare}, and the numbers say how many of them hold 0. Largest deviation of C: {} %. {}",
         significant(worst, 2),
         provenance(cells),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    #[test]
+    fn an_exact_count_holds_its_prediction() {
+        let exact = |counted| Pair {
+            predicted: 3.0,
+            counted,
+            se: Some(0.0),
+        };
+        let holds = |pair: Pair| pair.deviation().unwrap().holds_zero();
+        assert_eq!(holds(exact(3.0 * (1.0 + 1e-15))), Some(true), "rounding");
+        assert_eq!(holds(exact(3.0001)), Some(false));
+        let unknown = Pair {
+            se: None,
+            ..exact(3.0001)
+        };
+        assert_eq!(holds(unknown), None);
+        let nothing = Pair {
+            predicted: 0.0,
+            ..exact(0.0)
+        };
+        assert_eq!(nothing.deviation(), None);
+    }
+
+    #[test]
+    fn the_axis_never_shows_rounding() {
+        let mut cell = fixture::cell("a", "sah", 1);
+        let one = |predicted: &mut f64, counted: &mut f64, se: &mut Option<f64>| {
+            (*predicted, *counted, *se) = (1.0, 1.0 + 1e-15, Some(0.0));
+        };
+        one(
+            &mut cell.n_k_predicted,
+            &mut cell.n_k_counted,
+            &mut cell.n_k_se,
+        );
+        one(
+            &mut cell.n_b_predicted,
+            &mut cell.n_b_counted,
+            &mut cell.n_b_se,
+        );
+        one(
+            &mut cell.n_t_predicted,
+            &mut cell.n_t_counted,
+            &mut cell.n_t_se,
+        );
+        one(&mut cell.c_predicted, &mut cell.c_counted, &mut cell.c_se);
+        assert_eq!(reach(&[cell.clone()]), LEAST_REACH);
+        cell.n_k_counted = 1.01;
+        assert!(reach(&[cell]) > 1.0);
+    }
+
+    #[test]
+    fn an_unknown_error_leaves_four_digits() {
+        let pair = Pair {
+            predicted: 41.9,
+            counted: 41.987_65,
+            se: None,
+        };
+        assert_eq!(pair.decimals(), 2);
+    }
+
+    #[test]
+    fn the_caption_ends_with_what_was_counted() {
+        let mut cells = fixture::cells(2, 2);
+        assert!(!caption(&cells).contains("none where"));
+        cells[1].n_t_se = None;
+        let caption = caption(&cells);
+        assert!(
+            caption.contains("intervals (none where the pilot"),
+            "{caption}"
+        );
+        assert!(
+            caption.contains("4 cells, 1,048,576 lines each"),
+            "{caption}"
+        );
+    }
 }

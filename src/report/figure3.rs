@@ -16,7 +16,7 @@ use super::legend::{Key, legend};
 use super::number::{Z99, counted, decimals_for, fixed, grouped, significant};
 use super::palette::{BLUE, INK, Look, Marker, SKY, VERMILLION, faded};
 use super::panel::{Frame, Panel};
-use super::text::{LEADING, title_and_caption, wrap};
+use super::text::{LEADING, caption_lines, title_and_caption};
 use crate::study::records::{CellRecord, NodeRecord};
 
 /// Above this many nodes a density is drawn, not every node.
@@ -46,9 +46,9 @@ const LEAF: Look = Look {
 };
 
 /// The figure of one cell and all its nodes.
-pub fn figure(cell: &CellRecord, nodes: &[NodeRecord]) -> Result<Figure, ReportError> {
+pub fn figure(cell: &CellRecord, nodes: &[NodeRecord], quick: bool) -> Result<Figure, ReportError> {
     let data = Data::new(cell, nodes)?;
-    let caption = wrap(&data.caption(), WIDTH - 2.0 * LEFT);
+    let caption = caption_lines(data.caption(), WIDTH - 2.0 * LEFT, quick);
     let height = CAPTION + LEADING * (caption.len() - 1) as f64 + 6.0;
     Ok(Figure::draw(TITLE, WIDTH, height, |pen| {
         title_and_caption(pen, TITLE, LEFT, &caption, CAPTION);
@@ -244,7 +244,7 @@ impl<'r> Data<'r> {
 
     fn keys(&self) -> Vec<(Key, String)> {
         let mut keys = match self.density_top() {
-            Some(most) => vec![(Key::Density(most), "nodes".to_owned())],
+            Some(most) => vec![(Key::Density(most), "nodes per square".to_owned())],
             None => vec![
                 (Key::Mark(INNER), "inner node".to_owned()),
                 (Key::Mark(LEAF), "leaf".to_owned()),
@@ -294,7 +294,10 @@ impl<'r> Data<'r> {
             );
         }
         if let Some(z) = cell.max_abs_z {
-            text += &format!(" Largest |z| {}.", fixed(z, 1));
+            text += &format!(
+                " Largest |z| {} (nodes with N p ≥ {LEAST_EXPECTED}).",
+                fixed(z, 1)
+            );
         }
         let unhit = self
             .nodes

@@ -4,6 +4,7 @@ use statrs::distribution::Binomial;
 
 use super::figure3::quantile;
 
+use super::Run;
 use crate::study::records::{CellRecord, NodeRecord, Summary};
 
 pub const LINES: u64 = 1 << 20;
@@ -34,16 +35,16 @@ pub fn cell(scene: &str, strategy: &str, nodes: u64) -> CellRecord {
         object_tests: 3 * LINES,
         n_k_predicted: 10.0,
         n_k_counted: 10.002,
-        n_k_se: 0.004,
+        n_k_se: Some(0.004),
         n_b_predicted: 5.0,
         n_b_counted: 4.999,
-        n_b_se: 0.002,
+        n_b_se: Some(0.002),
         n_t_predicted: 3.0,
         n_t_counted: 3.001,
-        n_t_se: 0.003,
+        n_t_se: Some(0.003),
         c_predicted: 21.0,
         c_counted: 21.003,
-        c_se: 0.01,
+        c_se: Some(0.01),
         slope: Some(1.0004),
         slope_se: Some(0.0005),
         slope_ols: Some(1.0001),
@@ -119,11 +120,28 @@ pub fn summary(scene: &str) -> Summary {
         kind: "hits-vs-area".to_owned(),
         question: "a question".to_owned(),
         seed: 7,
+        command: "validate run test.toml".to_owned(),
+        stop: "objects:2:16".to_owned(),
+        interval_level: 0.99,
+        family_level: 0.99,
         quick: false,
         slope_within: 0.002,
         figure_scene: scene.to_owned(),
         figure_strategy: "sah".to_owned(),
         verdicts: Vec::new(),
         estimates: Vec::new(),
+    }
+}
+
+/// A run of these cells, nothing else of it kept.
+pub fn run(cells: Vec<CellRecord>) -> Run {
+    Run {
+        dir: "data/test".into(),
+        summary: summary(&cells[0].scene),
+        cells,
+        nodes: None,
+        bins: None,
+        samplers: None,
+        timings: None,
     }
 }

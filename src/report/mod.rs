@@ -101,8 +101,10 @@ pub enum ReportError {
 
 /// Draws every figure of a run into `out`, as SVG and PNG; gives the files in the order written.
 ///
-/// `figure3` needs the nodes of the summary's figure cell and is left out where the run kept no nodes.
+/// `figure3` needs the nodes of the summary's figure cell and is left out where the run kept no nodes; `slopes` is left
+/// out where no cell has a slope.
 pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
+    let (cells, quick) = (&run.cells, run.summary.quick);
     let mut figures = Vec::new();
     if let Some(nodes) = &run.nodes {
         let cell = run.figure_cell()?;
@@ -111,13 +113,12 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
             .filter(|node| node.cell == cell.cell)
             .cloned()
             .collect();
-        figures.push(("figure3", figure3::figure(cell, &nodes)?));
+        figures.push(("figure3", figure3::figure(cell, &nodes, quick)?));
     }
-    figures.push((
-        "slopes",
-        slopes::figure(&run.cells, run.summary.slope_within)?,
-    ));
-    figures.push(("predicted-vs-measured", cost::figure(&run.cells)?));
+    if let Some(figure) = slopes::figure(cells, run.summary.slope_within, quick) {
+        figures.push(("slopes", figure));
+    }
+    figures.push(("predicted-vs-measured", cost::figure(cells, quick)?));
     let mut files = Vec::new();
     for (name, figure) in figures {
         let path = out.join(format!("{name}.svg"));
@@ -138,8 +139,9 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
 
 /// Writes every table of a run into `out`, as Markdown, LaTeX and CSV; gives the files in the order written.
 ///
-/// `command` is what the files say made them.
-pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>, ReportError> {
+/// They name the command of the run as what made them, so that the same run gives the same bytes however often they are
+/// written.
+pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
     if same(&run.dir, out) {
         return Err(ReportError::Overwrite {
@@ -157,6 +159,7 @@ pub fn write_tables(run: &Run, out: &Path, command: &str) -> Result<Vec<PathBuf>
     if let Some(samplers) = &run.samplers {
         tables.push(("samplers", tables::samplers(samplers)));
     }
+    let command = &run.summary.command;
     let mut files = Vec::new();
     for (name, table) in tables {
         let texts = [

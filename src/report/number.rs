@@ -15,6 +15,15 @@ pub fn decimals_for(error: f64) -> usize {
     }
 }
 
+/// Decimals that show `value` with this many significant digits, as far as digits after the point can.
+pub fn digits_for(value: f64, digits: usize) -> usize {
+    if value == 0.0 || !value.is_finite() {
+        return 0;
+    }
+    let decimals = digits as i32 - 1 - magnitude(value.abs(), digits);
+    decimals.clamp(0, MOST_DECIMALS) as usize
+}
+
 /// Decimal exponent of a positive number once rounded to this many digits.
 fn magnitude(value: f64, digits: usize) -> i32 {
     let text = format!("{:.*e}", digits.saturating_sub(1), value);
@@ -119,6 +128,10 @@ mod tests {
         assert_eq!(decimals_for(0.0996), 2, "rounds to 0.10");
         assert_eq!(decimals_for(37.0), 0);
         assert_eq!(decimals_for(f64::NAN), 4);
+        assert_eq!(digits_for(-41.996, 4), 2);
+        assert_eq!(digits_for(99.996, 4), 1, "rounds to 100.0");
+        assert_eq!(digits_for(123_456.0, 4), 0);
+        assert_eq!(digits_for(0.0, 4), 0);
         assert_eq!(fixed(-0.0004, 2), "0.00");
         assert_eq!(fixed(-1.25, 1), "−1.2");
         assert_eq!(signed(0.5, 1), "+0.5");

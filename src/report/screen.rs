@@ -5,7 +5,7 @@ use std::fmt::Write;
 use super::number::{counted, grouped, significant};
 use super::table::fold;
 use super::{Run, tables};
-use crate::study::records::CellRecord;
+use crate::study::records::{CellRecord, TimingRecord};
 
 /// Columns of the screen.
 const WIDTH: usize = 100;
@@ -19,7 +19,7 @@ pub fn study(run: &Run) -> String {
         text,
         "{} cells, stop {}, costs {}:{}:{}, seed {}, {} lines in all\n",
         run.cells.len(),
-        first.stop,
+        run.summary.stop,
         first.c_k,
         first.c_b,
         first.c_t,
@@ -42,7 +42,7 @@ pub fn scene(run: &Run) -> String {
         "\n{}: {}, stop {}\n\n",
         first.scene,
         counted(first.objects, "object"),
-        first.stop
+        run.summary.stop
     );
     text += &tables::of_scene(&run.cells).to_text(WIDTH);
     text += &advice(&run.cells);
@@ -51,37 +51,58 @@ pub fn scene(run: &Run) -> String {
 
 /// The strategy to take: the least cost counted, and how far the others are.
 fn advice(cells: &[CellRecord]) -> String {
-    let mut by_cost: Vec<&CellRecord> = cells.iter().collect();
-    by_cost.sort_by(|a, b| a.c_counted.total_cmp(&b.c_counted));
-    let (best, last) = (by_cost[0], by_cost[by_cost.len() - 1]);
-    let more = |cell: &CellRecord| 100.0 * (cell.c_counted / best.c_counted - 1.0);
-    if more(last) < LEAST_GAIN {
+    let least = |cost: fn(&CellRecord) -> f64| {
+        let by_cost = |a: &&CellRecord, b: &&CellRecord| cost(a).total_cmp(&cost(b));
+        cells.iter().min_by(by_cost)
+    };
+    let Some((best, predicted)) = least(|c| c.c_counted).zip(least(|c| c.c_predicted)) else {
+        return String::new();
+    };
+    let more = |cell: &CellRecord| per_cent_more(cell.c_counted, best.c_counted);
+    let (tied, mut others): (Vec<&CellRecord>, Vec<_>) =
+        cells.iter().partition(|cell| !gains(more(cell)));
+    others.sort_by(|a, b| a.c_counted.total_cmp(&b.c_counted));
+    let (Some((take, also)), Some(next)) = (tied.split_first(), others.first()) else {
         return "\nEvery strategy gives a tree of the same cost.\n".to_owned();
-    }
+    };
+    let also: Vec<&str> = also.iter().map(|cell| cell.strategy.as_str()).collect();
+    let also = match also[..] {
+        [] => String::new(),
+        [one] => format!(" (as does {one})"),
+        [one, two] => format!(" (as do {one}, {two})"),
+        _ => format!(" ({} others cost the same)", also.len()),
+    };
     let mut text = format!(
-        "\nTake {}: its lines cost {} each, counted.",
-        best.strategy,
-        significant(best.c_counted, 4)
+        "\nTake {}: its lines cost {} each, counted{also}. {} costs {} % more",
+        take.strategy,
+        significant(take.c_counted, 4),
+        next.strategy,
+        significant(more(next), 2)
     );
-    if let Some(next) = by_cost.get(1) {
-        let _ = write!(
-            text,
-            " {} costs {} % more, the worst, {}, {} % more.",
-            next.strategy,
-            significant(more(next), 2),
-            last.strategy,
-            significant(more(last), 2)
-        );
+    if let [_, .., worst] = others[..] {
+        let percent = significant(more(worst), 2);
+        let _ = write!(text, ", the worst, {}, {percent} % more", worst.strategy);
     }
-    let predicted = cells
-        .iter()
-        .min_by(|a, b| a.c_predicted.total_cmp(&b.c_predicted))
-        .map_or("", |cell| &cell.strategy);
-    let _ = writeln!(
+    let same = !gains(per_cent_more(take.c_predicted, predicted.c_predicted));
+    let picked = if same {
+        "the same"
+    } else {
+        &predicted.strategy
+    };
+    let _ = write!(
         text,
-        "\nSurface areas alone would have picked {predicted}. All this is for lines that never stop."
+        ". Surface areas alone would have picked {picked}. All this is for lines that never stop."
     );
-    text
+    fold(&text, WIDTH) + "\n"
+}
+
+fn per_cent_more(cost: f64, least: f64) -> f64 {
+    100.0 * (cost / least - 1.0)
+}
+
+/// Whether a saving of so many per cent is one (it is none where costs are 0 and their ratio no number).
+fn gains(percent: f64) -> bool {
+    percent >= LEAST_GAIN
 }
 
 /// Per cent of cost below which trees count as equal.
@@ -91,6 +112,9 @@ const LEAST_GAIN: f64 = 0.005;
 fn verdicts(run: &Run) -> String {
     const MARGIN: usize = 22;
     let mut text = String::from("\n");
+    if run.cells.iter().all(|cell| cell.slope.is_none()) {
+        text += "no tree has a node besides its root: nothing to fit\n";
+    }
     for v in &run.summary.verdicts {
         let mark = if v.held { "held" } else { "MISSED" };
         let message = fold(&v.message, WIDTH - MARGIN).replace('\n', &format!("\n{:MARGIN$}", ""));
@@ -102,14 +126,14 @@ fn verdicts(run: &Run) -> String {
     text
 }
 
-/// How fast it went, from `timings.csv`.
+/// How fast the cells of the run went, from `timings.csv`; empty where it has no times of them.
 pub fn speed(run: &Run) -> String {
-    let Some(timings) = run.timings.as_ref().filter(|t| !t.is_empty()) else {
+    let of_run = |timing: &&TimingRecord| run.cells.iter().any(|cell| cell.cell == timing.cell);
+    let timings: Vec<&TimingRecord> = run.timings.iter().flatten().filter(of_run).collect();
+    let Some(first) = timings.first() else {
         return String::new();
     };
-    let sum = |part: fn(&crate::study::records::TimingRecord) -> f64| {
-        timings.iter().map(part).sum::<f64>()
-    };
+    let sum = |part: fn(&TimingRecord) -> f64| timings.iter().map(|t| part(t)).sum::<f64>();
     let (build, count) = (sum(|t| t.build_s), sum(|t| t.count_s));
     let visits: u64 = timings.iter().map(|t| t.visits).sum();
     format!(
@@ -117,7 +141,83 @@ pub fn speed(run: &Run) -> String {
         significant(visits as f64, 3),
         significant(count, 3),
         significant(visits as f64 / count, 3),
-        timings[0].threads,
+        first.threads,
         significant(build, 3)
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    /// One scene, strategies a, b, ... of these counted and predicted costs.
+    fn trees(costs: &[(f64, f64)]) -> Vec<CellRecord> {
+        let names = ["a", "b", "c", "d", "e"];
+        let tree = |(name, &(counted, predicted)): (&&str, &(f64, f64))| CellRecord {
+            c_counted: counted,
+            c_predicted: predicted,
+            ..fixture::cell("scene", name, 601)
+        };
+        names.iter().zip(costs).map(tree).collect()
+    }
+
+    #[test]
+    fn ties_are_told() {
+        let advice = |costs: &[(f64, f64)]| advice(&trees(costs)).replace('\n', " ");
+        let one = advice(&[(20.0, 20.0), (10.0, 9.0), (30.0, 30.0)]);
+        assert!(one.contains("Take b: its lines cost 10.00 each, counted. a costs 100 % more"));
+        assert!(
+            one.contains(
+                "the worst, c, 200 % more. Surface areas alone would have picked the same."
+            )
+        );
+        let tied = advice(&[(10.0001, 10.0), (10.0, 9.0), (30.0, 30.0)]);
+        assert!(tied.contains(
+            "Take a: its lines cost 10.00 each, counted (as does b). c costs 200 % more."
+        ));
+        assert!(tied.contains("would have picked b."), "{tied}");
+        let many = advice(&[
+            (10.0, 9.0),
+            (10.0, 9.0),
+            (10.0, 9.0),
+            (10.0, 9.0),
+            (20.0, 9.0),
+        ]);
+        assert!(many.contains("(3 others cost the same)"), "{many}");
+        for costs in [(10.0, 9.0), (0.0, 0.0), (f64::NAN, f64::NAN)] {
+            let all = advice(&[costs; 3]);
+            assert_eq!(all, " Every strategy gives a tree of the same cost. ");
+        }
+    }
+
+    #[test]
+    fn only_times_of_the_runs_cells_count() {
+        let time = |cell: &str| TimingRecord {
+            cell: cell.to_owned(),
+            scene: String::new(),
+            strategy: String::new(),
+            build_s: 1.0,
+            count_s: 2.0,
+            threads: 3,
+            visits: 100,
+        };
+        let mut run = fixture::run(trees(&[(1.0, 1.0)]));
+        assert_eq!(speed(&run), "");
+        run.timings = Some(vec![time("another"), time("scene-a")]);
+        assert!(
+            speed(&run)
+                .starts_with("speed  100 visits in 2.00 s of counting (50.0 a second, 3 threads)")
+        );
+        run.timings = Some(vec![time("another")]);
+        assert_eq!(speed(&run), "");
+    }
+
+    #[test]
+    fn a_run_of_single_leaves_says_so() {
+        let mut run = fixture::run(trees(&[(1.0, 1.0), (1.0, 1.0)]));
+        assert!(!study(&run).contains("nothing to fit"));
+        run.cells.iter_mut().for_each(|cell| cell.slope = None);
+        assert!(study(&run).contains("no tree has a node besides its root: nothing to fit\n"));
+    }
 }

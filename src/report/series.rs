@@ -43,7 +43,8 @@ impl<'r> Series<'r> {
     }
 }
 
-fn distinct<'r>(names: impl Iterator<Item = &'r str>) -> Vec<&'r str> {
+/// Each name once, in the order of first appearance.
+pub fn distinct<'r>(names: impl Iterator<Item = &'r str>) -> Vec<&'r str> {
     let mut seen = Vec::new();
     for name in names {
         if !seen.contains(&name) {
@@ -53,8 +54,16 @@ fn distinct<'r>(names: impl Iterator<Item = &'r str>) -> Vec<&'r str> {
     seen
 }
 
-/// What all cells share, for a caption: number of cells, lines and seeds.
-pub fn provenance(cells: &[CellRecord]) -> String {
+/// Costs c_K, c_B and c_t, where all cells share them.
+pub fn constants(cells: &[CellRecord]) -> Option<[f64; 3]> {
+    let of = |cell: &CellRecord| [cell.c_k, cell.c_b, cell.c_t];
+    let first = of(cells.first()?);
+    cells.iter().all(|cell| of(cell) == first).then_some(first)
+}
+
+/// What the cells share, for a caption: number of cells, lines and seeds.
+pub fn provenance<'r>(cells: impl IntoIterator<Item = &'r CellRecord>) -> String {
+    let cells: Vec<&CellRecord> = cells.into_iter().collect();
     let range = |values: Vec<u64>, show: fn(u64) -> String| match (
         values.iter().min(),
         values.iter().max(),

@@ -2,15 +2,14 @@
 
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::ReportError;
 use super::axis::{Axis, extent};
 use super::figure::Figure;
 use super::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use super::number::Z99;
 use super::palette::{INK, SKY, faded};
 use super::panel::{Frame, Panel};
-use super::series::{Series, provenance};
-use super::text::{LEADING, MEDIUM, fit, text_width, title_and_caption, wrap};
+use super::series::{Series, distinct, provenance};
+use super::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title_and_caption};
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Do hits grow in proportion to surface area, for every scene and strategy?";
@@ -22,15 +21,25 @@ const ROW: f64 = 9.0;
 /// Longer names of scenes are shortened.
 const WIDEST_NAME: f64 = 140.0;
 
-/// The figure of all cells that have a slope. Slopes within 1 +- `target` are what the run aims to show.
-pub fn figure(cells: &[CellRecord], target: f64) -> Result<Figure, ReportError> {
-    let series = Series::to_draw(cells)?;
+/// The figure of all cells that have a slope and its error; None where no cell has. Slopes within 1 +- `target` are what
+/// the run aims to show.
+pub fn figure(cells: &[CellRecord], target: f64, quick: bool) -> Option<Figure> {
     let target = 100.0 * target;
-    let estimates: Vec<Estimate> = cells
+    let drawn = drawn(cells);
+    if drawn.is_empty() {
+        return None;
+    }
+    // Rows for the scenes drawn; strategies from all cells, so that each looks the same in every figure.
+    let series = Series {
+        scenes: distinct(drawn.iter().map(|cell| cell.scene.as_str())),
+        ..Series::of(cells)
+    };
+    let estimates: Vec<Estimate> = drawn
         .iter()
         .filter_map(|cell| Estimate::new(cell, &series))
         .collect();
-    let caption = wrap(&caption(cells, &estimates, target), WIDTH - 2.0 * LEFT);
+    let caption = caption(&drawn, cells.len() - drawn.len(), &estimates, target);
+    let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, quick);
     let row = PITCH * series.strategies.len() as f64 + ROW;
     let keys: Vec<_> = keys(&series);
     let rows = legend_rows(
@@ -55,7 +64,7 @@ pub fn figure(cells: &[CellRecord], target: f64) -> Result<Figure, ReportError> 
         bottom,
     };
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Ok(Figure::draw(TITLE, WIDTH, height, |pen| {
+    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
         title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         let ends = estimates
@@ -105,6 +114,15 @@ pub fn figure(cells: &[CellRecord], target: f64) -> Result<Figure, ReportError> 
     }))
 }
 
+/// The cells that have a slope and its error.
+fn drawn(cells: &[CellRecord]) -> Vec<&CellRecord> {
+    let known = |value: Option<f64>| value.is_some_and(f64::is_finite);
+    cells
+        .iter()
+        .filter(|cell| known(cell.slope) && known(cell.slope_se))
+        .collect()
+}
+
 struct Estimate {
     scene: usize,
     strategy: usize,
@@ -139,7 +157,13 @@ fn keys(series: &Series) -> Vec<(Key, String)> {
         .collect()
 }
 
-fn caption(cells: &[CellRecord], estimates: &[Estimate], target: f64) -> String {
+/// The caption for the cells drawn, besides which `others` have no slope.
+fn caption(drawn: &[&CellRecord], others: usize, estimates: &[Estimate], target: f64) -> String {
+    let others = match others {
+        0 => String::new(),
+        1 => " 1 cell has no slope (no node but the root, or too rare events).".to_owned(),
+        n => format!(" {n} cells have no slope (no node but the root, or too rare events)."),
+    };
     let holding = estimates
         .iter()
         .filter(|e| e.percent.abs() <= e.half)
@@ -150,8 +174,36 @@ fn caption(cells: &[CellRecord], estimates: &[Estimate], target: f64) -> String 
         .count();
     format!(
         "Slope of hits against N p through the origin, weights 1/(p(1 − p)); theory says 1. Bars: 99 % interval of each \
-         cell; {holding} of {n} hold 0. Shaded: the target ±{target} %; {inside} of {n} intervals lie inside. {}",
-        provenance(cells),
+         cell; {holding} of {n} hold 0. Shaded: the target ±{target} %; {inside} of {n} intervals lie inside. {}{others}",
+        provenance(drawn.iter().copied()),
         n = estimates.len(),
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::fixture;
+
+    #[test]
+    fn only_cells_with_a_slope_are_counted() {
+        let mut cells = fixture::cells(2, 2);
+        cells[0].slope_se = None;
+        let series = Series::of(&cells);
+        let text = |cells: &[CellRecord]| {
+            let drawn = drawn(cells);
+            let estimates: Vec<_> = drawn
+                .iter()
+                .filter_map(|cell| Estimate::new(cell, &series))
+                .collect();
+            caption(&drawn, cells.len() - drawn.len(), &estimates, 0.2)
+        };
+        let one = text(&cells);
+        assert!(one.contains("2 of 3 hold 0"), "{one}");
+        assert!(one.contains(" 3 cells, "), "{one}");
+        assert!(one.ends_with(" 1 cell has no slope (no node but the root, or too rare events)."));
+        assert!(figure(&cells, 0.002, false).is_some());
+        cells.iter_mut().for_each(|cell| cell.slope = None);
+        assert!(figure(&cells, 0.002, false).is_none());
+    }
 }

@@ -47,6 +47,14 @@ pub fn wrap(text: &str, width: f64) -> Vec<String> {
     lines
 }
 
+/// The lines of a figure's caption, which ends by saying so where the run was a quick one.
+pub fn caption_lines(mut text: String, width: f64, quick: bool) -> Vec<String> {
+    if quick {
+        text.push_str(" Quick form: not for publication.");
+    }
+    wrap(&text, width)
+}
+
 /// Title above and caption below a figure, both from the left edge; `baseline` is that of the first caption line.
 pub fn title_and_caption(pen: &Pen, title: &str, left: f64, caption: &[String], baseline: f64) {
     pen.text(title, (left, 15.0), LARGE, INK, (HPos::Left, VPos::Bottom));

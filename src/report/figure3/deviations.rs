@@ -64,7 +64,15 @@ impl Data<'_> {
             self.histogram(pen, &panel);
         }
         if judged == 0 {
-            panel.note("no node with N p ≥ 10", false);
+            let besides_root = self.nodes.iter().any(|node| node.z.is_some());
+            panel.note(
+                if besides_root {
+                    "no node with N p ≥ 10"
+                } else {
+                    "no node but the root to judge"
+                },
+                false,
+            );
         }
     }
 
