@@ -74,8 +74,7 @@ fn execute(cli: &Cli) -> Result<bool> {
             Ok(true)
         }
         Some(Command::Tables { folder }) => {
-            let command = format!("validate tables {}", folder.display());
-            let files = write_tables(&read_run(folder)?, &folder.join("tables"), &command)?;
+            let files = write_tables(&read_run(folder)?, &folder.join("tables"))?;
             print(&paths(&files))?;
             Ok(true)
         }

@@ -67,7 +67,7 @@ pub fn run(
 
     // From here on only files are read.
     let run = report::read_run(&data)?;
-    report::write_tables(&run, &data.join("tables"), &plan.command)?;
+    report::write_tables(&run, &data.join("tables"))?;
     report::write_plots(&run, &plots)?;
     if common.json {
         let json =
