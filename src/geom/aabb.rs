@@ -69,18 +69,6 @@ impl Aabb {
         e.x * e.y * e.z
     }
 
-    /// Axis of the longest side; the first of equals.
-    pub fn longest_axis(&self) -> Axis {
-        let e = self.extent();
-        if e.x >= e.y && e.x >= e.z {
-            0
-        } else if e.y >= e.z {
-            1
-        } else {
-            2
-        }
-    }
-
     /// The two parts below and above the plane `x[axis] = s`.
     pub fn split(&self, axis: Axis, s: f64) -> (Self, Self) {
         let (mut left, mut right) = (*self, *self);
@@ -92,11 +80,6 @@ impl Aabb {
     /// Whether `other` lies inside, faces included.
     pub fn contains(&self, other: &Self) -> bool {
         self.lo.cmple(other.lo).all() && self.hi.cmpge(other.hi).all()
-    }
-
-    /// Whether the two share a point, faces included.
-    pub fn touches(&self, other: &Self) -> bool {
-        self.lo.cmple(other.hi).all() && self.hi.cmpge(other.lo).all()
     }
 
     /// Whether all six numbers are finite and in order.
