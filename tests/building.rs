@@ -295,6 +295,28 @@ mod rejected {
     }
 
     #[test]
+    fn references_of_no_leaf() {
+        // Three more references than the leaves hold, with an empty leaf that begins behind them.
+        let world = Aabb::new(DVec3::ZERO, DVec3::new(2.0, 1.0, 1.0));
+        let bounds = [Aabb::new(DVec3::ZERO, DVec3::ONE)];
+        let (left, right) = world.split(0, 1.0);
+        let tree = |references: &[u32], empty: Node| Tree {
+            nodes: vec![Node::inner(0, 1.0, 1), Node::leaf(0, 1), empty],
+            boxes: vec![world, left, right],
+            references: references.to_vec(),
+            depth: 1,
+            world,
+        };
+        for first in [0, 1, 4, 9] {
+            assert_eq!(audit(&tree(&[0], Node::leaf(first, 0)), &bounds), Ok(()));
+            let unowned = tree(&[0, 0, 0, 0], Node::leaf(first, 0));
+            assert!(faults(&bounds, &unowned).contains("use 1 of 4 references"));
+        }
+        let between = tree(&[0, 0, 0, 0], Node::leaf(3, 1));
+        assert!(faults(&bounds, &between).contains("references 1 to 3 belong to no leaf"));
+    }
+
+    #[test]
     fn every_single_lost_reference_is_found() {
         let (bounds, tree) = good();
         for i in 0..tree.nodes.len() {
@@ -314,6 +336,12 @@ mod rejected {
         let (bounds, mut tree) = good();
         tree.world.hi.x += 1.0;
         assert!(faults(&bounds, &tree).contains("the root's box"));
+        // An object that has left the world since.
+        let (mut bounds, tree) = good();
+        bounds[17].hi.y = tree.world.hi.y + 0.5;
+        assert!(faults(&bounds, &tree).contains("object 17 reaches outside the world"));
+        bounds[17].hi.y = f64::NAN;
+        assert!(faults(&bounds, &tree).contains("object 17 reaches outside the world"));
         // An object that has grown since: it belongs in more leaves.
         let (mut bounds, tree) = good();
         bounds[17] = tree.world;

@@ -7,7 +7,7 @@ use super::{NodeKind, Tree};
 /// Check every invariant; the error lists what is wrong, at most a few of each kind.
 ///
 /// Proved: the nodes are one tree in the arena; each box is its parent's cut at the parent's plane, strictly inside; the
-/// root's box is the world; references tile their array; an object is in a leaf if and only if the placement rule leads it
+/// root's box is the world and holds every object; references tile their array; an object is in a leaf if and only if the placement rule leads it
 /// there (lying in a plane: on exactly one side); the depth is right.
 pub fn audit(tree: &Tree, bounds: &[Aabb]) -> Result<(), Vec<String>> {
     let mut audit = Audit {
@@ -88,6 +88,11 @@ impl Audit<'_> {
                 boxes[0], self.tree.world
             ));
         }
+        for (i, b) in self.bounds.iter().enumerate() {
+            if !(b.is_valid() && self.tree.world.contains(b)) {
+                self.fault(format!("object {i} reaches outside the world"));
+            }
+        }
         for (i, node) in self.tree.nodes.iter().enumerate() {
             let NodeKind::Inner { axis, split, left } = node.kind() else {
                 continue;
@@ -121,13 +126,17 @@ impl Audit<'_> {
         ranges.sort_unstable();
         let mut end = 0;
         for (first, count) in ranges {
-            if count > 0 && first != end {
+            // An empty leaf owns nothing, wherever it begins.
+            if count == 0 {
+                continue;
+            }
+            if first != end {
                 self.fault(format!(
                     "references {end} to {first} belong to no leaf or to two"
                 ));
                 return;
             }
-            end = end.max(first + count);
+            end += count;
         }
         if end != tree.references.len() {
             self.fault(format!(
@@ -151,7 +160,7 @@ impl Audit<'_> {
         while let Some((i, objects)) = work.pop() {
             match tree.nodes[i].kind() {
                 NodeKind::Leaf { first, count } => {
-                    let mut found = tree.objects(first, count).to_vec();
+                    let mut found = self.held(first, count).to_vec();
                     found.sort_unstable();
                     if found != objects {
                         let lost = objects
@@ -186,6 +195,14 @@ impl Audit<'_> {
         }
     }
 
+    /// What a leaf holds; an empty one may begin anywhere.
+    fn held(&self, first: u32, count: u32) -> &[u32] {
+        match count {
+            0 => &[],
+            _ => self.tree.objects(first, count),
+        }
+    }
+
     /// Objects in the leaves below each node that lie in some plane (others are empty lists): sorted.
     fn held_by_subtree(&self) -> Vec<Vec<u32>> {
         let tree = self.tree;
@@ -197,8 +214,8 @@ impl Audit<'_> {
         // Children come after their parent: from the end, every list is complete when it is passed up.
         for i in (0..tree.nodes.len()).rev() {
             held[i] = match tree.nodes[i].kind() {
-                NodeKind::Leaf { first, count } => tree
-                    .objects(first, count)
+                NodeKind::Leaf { first, count } => self
+                    .held(first, count)
                     .iter()
                     .copied()
                     .filter(flat)
