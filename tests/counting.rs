@@ -225,7 +225,7 @@ fn golden_counts() {
         (
             "simple:mixture:500",
             Strategy::SahSamples(10),
-            [3_807, 2_196_686, 657_341, 1_188_664],
+            [3_801, 2_194_627, 656_575, 1_188_709],
         ),
         (
             "simple:flat:500",

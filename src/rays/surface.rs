@@ -18,8 +18,10 @@ pub fn surface_line(world: &Aabb, u: [f64; 4]) -> Line {
     // Face: the first uniform picks one of six by area, and what is left of it is uniform again.
     let areas = world.face_areas();
     let mut rest = u[0] * 2.0 * (areas.x + areas.y + areas.z);
+    // Rounding may leave a rest behind the last face: a face without area is never taken for that.
+    let last = (1..3).rev().find(|&k| areas[k] > 0.0).unwrap_or(0);
     let mut axis = 0;
-    while axis < 2 && rest >= 2.0 * areas[axis] {
+    while axis < last && rest >= 2.0 * areas[axis] {
         rest -= 2.0 * areas[axis];
         axis += 1;
     }
@@ -82,6 +84,26 @@ mod tests {
                 let span = world.clip(&line, Span::FULL).expect("hits the box");
                 assert!(span.t0 <= 0.0 && span.t1 >= 0.0);
                 assert!((line.direction.length() - 1.0).abs() < 1e-15);
+            }
+        }
+    }
+
+    #[test]
+    fn a_face_without_area_is_never_taken() {
+        let least = 0.5_f64.powi(53);
+        for flat in 0..3 {
+            for (a, b) in [(1.0, 1.0), (0.1, 0.7), (3.7, 1e-9), (1e70, 1e-70)] {
+                let mut hi = DVec3::ZERO;
+                hi[(flat + 1) % 3] = a;
+                hi[(flat + 2) % 3] = b;
+                let world = Aabb::new(DVec3::ZERO, hi);
+                for u in [least, 0.5 - least, 0.5, 0.5 + least, 1.0 - least] {
+                    let line = surface_line(&world, [u, 0.3, 0.25, 0.1]);
+                    assert!(line.origin.is_finite() && line.direction.is_finite());
+                    // The face is the flat box itself, so its normal part of the direction is the cosine.
+                    assert!((line.direction[flat].abs() - 0.75_f64.sqrt()).abs() < 1e-15);
+                    assert!(world.contains(&Aabb::new(line.origin, line.origin)));
+                }
             }
         }
     }

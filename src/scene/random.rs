@@ -10,6 +10,11 @@ use rand_distr::{Distribution, UnitSphere};
 
 use crate::geom::{Polygon, Triangle};
 
+/// (k + 1/2) / 2^52 for the upper 52 bits k of a word: exact, so never 0 and never 1.
+fn unit_interval(bits: u64) -> f64 {
+    ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+}
+
 /// A stream of random numbers and shapes.
 pub(super) struct Random(ChaCha8Rng);
 
@@ -21,9 +26,9 @@ impl Random {
         Self(ChaCha8Rng::from_seed(seed))
     }
 
-    /// Uniform in (0, 1): neither end ever comes.
+    /// Uniform in (0, 1), (k + 1/2) / 2^52: neither end ever comes.
     pub(super) fn uniform(&mut self) -> f64 {
-        ((self.0.next_u64() >> 11) as f64 + 0.5) / (1_u64 << 53) as f64
+        unit_interval(self.0.next_u64())
     }
 
     /// Uniform between two numbers.
@@ -96,6 +101,12 @@ mod tests {
         let first = |name| Random::named(name).0.next_u64();
         assert_eq!(first("simple:uniform:10"), first("simple:uniform:10"));
         assert_ne!(first("simple:uniform:10"), first("simple:uniform:100"));
+    }
+
+    #[test]
+    fn neither_end_ever_comes() {
+        assert_eq!(unit_interval(0), 0.5_f64.powi(53));
+        assert_eq!(unit_interval(u64::MAX), 1.0 - 0.5_f64.powi(53));
     }
 
     #[test]
