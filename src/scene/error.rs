@@ -2,6 +2,8 @@
 
 use std::io;
 
+use super::AREAS;
+
 /// Why there is no scene.
 #[derive(Debug, thiserror::Error)]
 pub enum SceneError {
@@ -63,10 +65,15 @@ pub enum SceneError {
         right: String,
     },
     /// There is nothing in the scene.
-    #[error("{name}: the scene is empty; it needs at least one face or object")]
+    #[error(
+        "{name}: the scene is empty; it needs at least one face or object{}",
+        in_brackets(notes)
+    )]
     Empty {
         /// The scene.
         name: String,
+        /// What the reader has to say, e.g. which lines it passed over.
+        notes: Vec<String>,
     },
     /// There is too much in the scene for the 32-bit numbers of a tree.
     #[error("{name}: {count} objects are too many; at most {most} are possible")]
@@ -90,10 +97,12 @@ pub enum SceneError {
         /// What would be right.
         right: &'static str,
     },
-    /// The box around everything has no area, or one beyond f64.
+    /// The box around everything has no area, or one whose square leaves f64.
     #[error(
-        "{name}: the box around all objects has surface area {area}; it must be positive and finite: \
-         at least two of its sides longer than zero, none beyond about 1e150"
+        "{name}: the box around all objects has surface area {area:e}; it must lie within {least:e} to {most:e}: \
+         at least two of its sides must be longer than zero; if they are, scale the scene",
+        least = AREAS.start(),
+        most = AREAS.end()
     )]
     World {
         /// The scene.
@@ -101,4 +110,13 @@ pub enum SceneError {
         /// The surface area.
         area: f64,
     },
+}
+
+/// Notes as a remark at the end of a sentence.
+fn in_brackets(notes: &[String]) -> String {
+    if notes.is_empty() {
+        String::new()
+    } else {
+        format!(" ({})", notes.join("; "))
+    }
 }

@@ -14,6 +14,8 @@ mod random;
 mod simple;
 mod spd;
 
+use std::ops::RangeInclusive;
+
 use crate::geom::{Aabb, Objects, Polygon, Triangle};
 
 pub use catalogue::catalogue;
@@ -27,6 +29,9 @@ pub const EXTENSIONS: [&str; 3] = ["obj", "ply", "off"];
 /// The largest number of objects of a scene.
 pub const MAX_OBJECTS: usize = (1 << 27) - 1;
 
+/// Surface areas of a world that are understood: areas of parts of it and squares of areas' shares stay within f64.
+pub const AREAS: RangeInclusive<f64> = 1e-280..=1e280;
+
 /// A named set of objects. Never empty.
 #[derive(Clone, Debug)]
 pub struct Scene {
@@ -36,7 +41,7 @@ pub struct Scene {
     pub objects: Objects,
     /// Box of each object, in the order of their numbers.
     pub bounds: Vec<Aabb>,
-    /// The smallest box around all objects: the root of every tree. Its surface area is positive.
+    /// The smallest box around all objects: the root of every tree. Its surface area is one of [`AREAS`].
     pub world: Aabb,
     /// What a user should know of how it was read, e.g. degenerate triangles that can never be hit.
     pub notes: Vec<String>,
@@ -51,7 +56,7 @@ impl Scene {
     ) -> Result<Self, SceneError> {
         let name = name.into();
         if objects.is_empty() {
-            return Err(SceneError::Empty { name });
+            return Err(SceneError::Empty { name, notes });
         }
         if objects.len() > MAX_OBJECTS {
             return Err(SceneError::TooMany {
@@ -64,10 +69,11 @@ impl Scene {
         let bounds = objects.bounds();
         let world = bounds.iter().copied().fold(Aabb::EMPTY, Aabb::union);
         let area = world.surface_area();
-        if !(area > 0.0 && area.is_finite()) {
+        if !AREAS.contains(&area) {
             return Err(SceneError::World { name, area });
         }
         notes.extend(degenerate(&objects));
+        notes.extend(far_away(&world));
         Ok(Self {
             name,
             objects,
@@ -182,6 +188,21 @@ fn degenerate(objects: &Objects) -> Option<String> {
     (!told.is_empty()).then(|| format!("{} without area: kept, never hit", told.join(", ")))
 }
 
+/// Least longest side, as a share of the largest coordinate, for which coordinates have seven digits to tell sides by.
+const NEAR: f64 = 1e-9;
+
+/// A note on a scene so far from the origin that rounding of its coordinates shows.
+fn far_away(world: &Aabb) -> Option<String> {
+    let side = world.extent().max_element();
+    let largest = world.lo.abs().max(world.hi.abs()).max_element();
+    (side < NEAR * largest).then(|| {
+        format!(
+            "far from the origin: the longest side is {side:e}, the largest coordinate {largest:e}; rounding moves objects \
+             against each other, so move the scene to the origin"
+        )
+    })
+}
+
 /// A number with its noun.
 fn plural(n: usize, noun: &str) -> String {
     let s = if n == 1 { "" } else { "s" };
@@ -214,14 +235,27 @@ mod tests {
             let text = message(Scene::new("x", t, Vec::new()));
             assert!(text.contains("triangle 0 has a coordinate"), "{text}");
         }
+        let notes = vec!["3 lines passed over".into()];
+        let empty = message(Scene::new("x", Objects::default(), notes));
+        assert!(
+            empty.ends_with("one face or object (3 lines passed over)"),
+            "{empty}"
+        );
         // A line and a point have no surface; a coordinate of 1e200 gives too much of it.
         for corners in [
             [[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]],
             [[1.0; 3]; 3],
             [[0.0; 3], [1e200, 0.0, 0.0], [0.0, 1e200, 0.0]],
+            [[0.0; 3], [1e141, 0.0, 0.0], [0.0, 1e141, 0.0]],
+            [[0.0; 3], [1e-141, 0.0, 0.0], [0.0, 1e-141, 0.0]],
         ] {
             let text = message(Scene::new("x", one_triangle(corners), Vec::new()));
             assert!(text.contains("surface area"), "{text}");
+            assert!(text.contains("scale the scene"), "{text}");
+        }
+        for scale in [1e-139, 1e139] {
+            let t = one_triangle([[0.0; 3], [scale, 0.0, 0.0], [0.0, scale, 0.0]]);
+            assert!(Scene::new("x", t, Vec::new()).is_ok());
         }
         for radius in [0.0, -1.0, f64::NAN] {
             let objects = Objects {
@@ -234,6 +268,16 @@ mod tests {
             let text = message(Scene::new("x", objects, Vec::new()));
             assert!(text.contains("sphere 0 has a radius"), "{text}");
         }
+    }
+
+    #[test]
+    fn a_scene_far_from_the_origin_is_told() {
+        let notes = |x: f64| {
+            let t = one_triangle([[x, 0.0, 0.0], [x + 1.0, 0.0, 0.0], [x, 1.0, 0.0]]);
+            Scene::new("x", t, Vec::new()).expect("a scene").notes
+        };
+        assert_eq!(notes(1e8), [""; 0]);
+        assert!(notes(-1e10)[0].contains("move the scene to the origin"));
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! The word OFF may be missing, and the counts may stand on its line. Its prefixes tell what follows x y z in every
 //! vertex: ST two texture coordinates, C a colour of three or four numbers, N a normal. A face is its number of
-//! corners, its corners, and perhaps a colour.
+//! corners, its corners, and perhaps a colour. The word is read in either case.
 
 use glam::DVec3;
 
@@ -88,7 +88,8 @@ impl Extra {
                 "the file must start with OFF, COFF, NOFF, CNOFF or STOFF, or with its counts",
             )
         };
-        let mut rest = header.strip_suffix("OFF").ok_or_else(misspelt)?;
+        let upper = header.to_ascii_uppercase();
+        let mut rest = upper.strip_suffix("OFF").ok_or_else(misspelt)?;
         let mut extra = Self::default();
         for (prefix, least, most) in [("ST", 2, 2), ("C", 3, 4), ("N", 3, 3)] {
             if let Some(after) = rest.strip_prefix(prefix) {

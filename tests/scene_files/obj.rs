@@ -87,7 +87,7 @@ fn faults() {
         f 99999999999999999999 2 3 | :5 | is not a corner | whole numbers
         f 9223372036854775807 2 3 | :5 | there is no vertex 9223372036854775807 | run from 1 to 4
         f -9223372036854775808 2 3 | :5 | there is no vertex -9223372036854775808 | 4 v lines
-        f 1 1 1        |    | surface area 0         | positive and finite
+        f 1 1 1        |    | surface area 0         | must lie within
                        |    | the scene is empty     | at least one face
     ";
     bad_table("a.obj", SQUARE, faces);

@@ -6,6 +6,8 @@ use super::{OFF_SQUARE, bad_table, counted, good};
 fn headers() {
     for head in [
         "OFF\n4 2 0\n",
+        "off\n4 2 0\n",
+        "Off 4 2\n",
         "OFF 4 2 5\n",
         "4 2 0\n",
         "# first\n\nOFF # here\n# counts\n4 2\n",
