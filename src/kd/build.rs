@@ -167,7 +167,7 @@ impl Builder<'_> {
         };
         // `window`: object bounds in it are candidates; `extra`: further positions, ascending.
         let mut window = None;
-        let extra = match positions {
+        let mut extra = match positions {
             Positions::AllBounds => {
                 window = Some((bounds.lo[axis], bounds.hi[axis]));
                 vec![]
@@ -189,6 +189,8 @@ impl Builder<'_> {
                 (0..=count).map(between).chain([b]).collect()
             }
         };
+        // Medians that meet, and samples between nearly equal ones, are one candidate.
+        extra.dedup();
         let sweep = Sweep {
             axis,
             bounds,

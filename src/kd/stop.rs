@@ -5,12 +5,15 @@ use std::str::FromStr;
 
 use serde::{Deserialize, Serialize};
 
-/// When a node becomes a leaf. Every rule but `depth` also ends at an empty node, at a depth bound, and where the
+/// When a node becomes a leaf.
+///
+/// Every rule but `depth` also ends at an empty node, at a depth bound, and where the
 /// strategy has no candidate plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum StopRule {
-    /// `depth:D`: at depth D and nowhere else, empty nodes too. As a full tree is wanted, planes that keep all objects
+    /// `depth:D`: at depth D (at most [`MAX_FULL_DEPTH`]) and nowhere else. Empty nodes are cut too, but by the strategies
+    /// of the spatial median only: no other has a candidate plane where there is no object. As a full tree is wanted, planes that keep all objects
     /// on both sides are taken; on a cube, strategy 1 at depth 3k makes a grid of 2^k cells a side.
     Depth(u32),
     /// `objects:N[:D]`: at most N objects, or depth D.
@@ -27,7 +30,7 @@ pub enum StopRule {
         /// Depth bound; without one see [`default_depth`].
         depth: Option<u32>,
     },
-    /// `cost-gain[:D]`: where the chosen plane's cost is no less than the leaf's.
+    /// `cost-gain[:D]`: where the chosen plane's one-level cost is no less than the leaf's, c_B + c_t n.
     CostGain {
         /// Depth bound; without one see [`default_depth`].
         depth: Option<u32>,
@@ -39,8 +42,13 @@ pub fn default_depth(objects: usize) -> usize {
     8 + (13 * objects.max(1).ilog2() as usize + 5) / 10
 }
 
-/// Depth beyond which no tree grows, whatever a rule says: a bound on memory and on the traversal stack.
+/// Largest depth bound of any rule. It bounds the traversal stack (one entry a level) and the recursion of the builder;
+/// the number of nodes is bounded by the objects, as these rules stop at empty nodes.
 pub const MAX_DEPTH: u32 = 128;
+
+/// Largest depth of the rule `depth`, which cuts empty nodes too: a full tree of that depth has 2^23 nodes, about a
+/// gigabyte with its boxes and scores, and each level more would double it.
+pub const MAX_FULL_DEPTH: u32 = 22;
 
 impl StopRule {
     /// The depth at which every node becomes a leaf.
@@ -92,13 +100,15 @@ impl FromStr for StopRule {
         let wrong = || {
             format!(
                 "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D] or cost-gain[:D] \
-                 with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH}, e.g. objects:2:16"
+                 with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH} (of depth:D at most {MAX_FULL_DEPTH}, a full \
+                 tree of 2^{} nodes), e.g. objects:2:16",
+                MAX_FULL_DEPTH + 1
             )
         };
         let mut parts = text.split(':');
         let rule = parts.next().unwrap_or_default();
-        let depth_of = |part: &str| match part.parse::<u32>() {
-            Ok(d) if d <= MAX_DEPTH => Ok(d),
+        let depth_up_to = |most: u32, part: &str| match part.parse::<u32>() {
+            Ok(d) if d <= most => Ok(d),
             _ => Err(wrong()),
         };
         let parameter = if rule == "cost-gain" {
@@ -106,12 +116,17 @@ impl FromStr for StopRule {
         } else {
             Some(parts.next().ok_or_else(wrong)?)
         };
-        let depth = parts.next().map(depth_of).transpose()?;
+        let depth = parts
+            .next()
+            .map(|d| depth_up_to(MAX_DEPTH, d))
+            .transpose()?;
         if parts.next().is_some() {
             return Err(wrong());
         }
         match (rule, parameter) {
-            ("depth", Some(d)) if depth.is_none() => Ok(Self::Depth(depth_of(d)?)),
+            ("depth", Some(d)) if depth.is_none() => {
+                Ok(Self::Depth(depth_up_to(MAX_FULL_DEPTH, d)?))
+            }
             ("objects", Some(n)) => match n.parse() {
                 Ok(limit) if limit > 0 => Ok(Self::Objects { limit, depth }),
                 _ => Err(wrong()),
@@ -148,6 +163,8 @@ mod tests {
     fn rules_read_back() {
         for text in [
             "depth:9",
+            "depth:22",
+            "objects:1:128",
             "objects:2:16",
             "objects:1",
             "cost-k:0.5:20",
@@ -161,7 +178,8 @@ mod tests {
         for text in [
             "",
             "depth",
-            "depth:129",
+            "depth:23",
+            "objects:1:129",
             "depth:3:4",
             "objects",
             "objects:0",

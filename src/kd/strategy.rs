@@ -10,7 +10,8 @@ use crate::geom::{Aabb, Axis};
 /// The rule that picks a node's plane. When to stop and where straddlers go is the same for all of them.
 ///
 /// b_rm is the spatial median (middle of the node), b_om the object median (median of the centres of the objects'
-/// bounds, clipped to the node).
+/// bounds, clipped to the node). A node without objects has no bounds and no object median: only the spatial median can
+/// cut it, which matters under the stop rule `depth`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Strategy {
