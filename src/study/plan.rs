@@ -13,7 +13,7 @@ use crate::kd::{StopRule, Strategy};
 /// What an experiment asks for.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
-    /// The file's stem: the name of its folders under `data/` and `plots/`.
+    /// The file's stem, with `-quick` behind it in the quick form: the name of its folders under `data/` and `plots/`.
     pub name: String,
     /// The command that repeats it, as printed in what it generates.
     pub command: String,
@@ -77,7 +77,7 @@ impl LineRule {
             min,
             max,
         };
-        rule.check()?;
+        rule.check().map_err(|wrong| wrong.message)?;
         Ok(rule)
     }
 
@@ -97,26 +97,23 @@ impl LineRule {
         self.min
     }
 
-    fn check(&self) -> Result<(), String> {
-        if !(self.slope_error > 0.0 && self.slope_error <= 1.0) {
-            return Err(format!(
-                "lines.slope_error = {}, but it must be above 0 and at most 1",
-                self.slope_error
-            ));
-        }
-        if self.min < FEWEST_LINES {
-            return Err(format!(
-                "{} lines, but a cell needs at least {FEWEST_LINES} for its standard errors",
-                self.min
-            ));
-        }
-        if self.max < self.min || self.max > MOST_LINES {
-            return Err(format!(
-                "lines.max = {}, but it must be lines.min to {MOST_LINES}",
-                self.max
-            ));
-        }
-        Ok(())
+    fn check(&self) -> Result<(), Wrong> {
+        let Self {
+            slope_error,
+            min,
+            max,
+        } = *self;
+        wrong_unless(
+            slope_error > 0.0 && slope_error <= 1.0,
+            "lines.slope_error",
+            || format!("lines.slope_error = {slope_error}, but it must be above 0 and at most 1"),
+        )?;
+        wrong_unless(min >= FEWEST_LINES, "lines.min", || {
+            format!("{min} lines, but a cell needs at least {FEWEST_LINES} for its standard errors")
+        })?;
+        wrong_unless((min..=MOST_LINES).contains(&max), "lines.max", || {
+            format!("lines.max = {max}, but it must be lines.min = {min} to {MOST_LINES}")
+        })
     }
 }
 
@@ -154,6 +151,28 @@ pub struct Expect {
     pub gate: f64,
 }
 
+/// A value that makes no sense.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[error("{message}")]
+pub struct Wrong {
+    /// Its key in the file, with dots between tables and keys.
+    pub key: &'static str,
+    /// What is wrong, and what would be right.
+    pub message: String,
+}
+
+fn wrong_unless(
+    right: bool,
+    key: &'static str,
+    message: impl FnOnce() -> String,
+) -> Result<(), Wrong> {
+    if right {
+        return Ok(());
+    }
+    let message = message();
+    Err(Wrong { key, message })
+}
+
 /// Why an experiment cannot be run.
 #[derive(Debug, Error)]
 pub enum PlanError {
@@ -177,14 +196,23 @@ pub enum PlanError {
         /// What is wrong, and what would be right.
         message: String,
     },
-    /// A value makes no sense.
+    /// A value that stands nowhere in the file makes no sense.
     #[error("{path}: {message}")]
     Value {
-        /// The file.
+        /// The file, or the option of the command line.
         path: String,
         /// What is wrong, and what would be right.
         message: String,
     },
+}
+
+/// Names of folders that are no run's under `data/`.
+const RESERVED: [&str; 3] = ["published", "reference", "bench"];
+
+/// Whether this can be the name of a folder for a run or a benchmark.
+pub fn is_folder_name(name: &str) -> bool {
+    let plain = |c: char| c.is_alphanumeric() || "-_.".contains(c);
+    !name.is_empty() && !name.starts_with('.') && name.chars().all(plain)
 }
 
 /// The kinds of experiment there are.
@@ -214,7 +242,7 @@ struct File {
     figure: Figure,
     controls: Option<Controls>,
     expect: Expect,
-    quick: Quick,
+    quick: Option<Quick>,
 }
 
 /// What `--quick` puts in place: smaller scenes, fewer lines, nothing else.
@@ -236,6 +264,23 @@ pub struct Overrides {
     pub lines: Option<u64>,
     /// The quick form.
     pub quick: bool,
+}
+
+impl Overrides {
+    /// As arguments of the command line, each with a space before it.
+    pub fn arguments(&self) -> String {
+        let mut text = String::new();
+        if self.quick {
+            text += " --quick";
+        }
+        if let Some(seed) = self.seed {
+            text += &format!(" --seed {seed}");
+        }
+        if let Some(lines) = self.lines {
+            text += &format!(" --lines {lines}");
+        }
+        text
+    }
 }
 
 impl Plan {
@@ -281,24 +326,38 @@ impl Plan {
         let quick = overrides.quick;
         let (mut scenes, mut lines, mut figure, mut expect) =
             (file.scenes, file.lines, file.figure, file.expect);
-        if quick {
-            (scenes, lines, figure, expect) = (
-                file.quick.scenes,
-                file.quick.lines,
-                file.quick.figure,
-                file.quick.expect,
-            );
-        }
-        let value = |message: String| PlanError::Value {
+        let value = |message: &str| PlanError::Value {
             path: path.into(),
-            message,
+            message: message.into(),
         };
+        if !is_folder_name(name) || RESERVED.iter().any(|r| r.eq_ignore_ascii_case(name)) {
+            return Err(value(&format!(
+                "'{name}' cannot name the folders of a run; the file's name must have letters, digits, '-', '_' and '.' \
+                 only, not start with '.', and not be one of {}",
+                RESERVED.join(", ")
+            )));
+        }
+        if quick {
+            let small = file.quick.ok_or_else(|| {
+                value(
+                    "--quick needs a section [quick] that says the smaller form: scenes, lines, figure and expect, \
+                     each as outside of it",
+                )
+            })?;
+            (scenes, lines, figure, expect) =
+                (small.scenes, small.lines, small.figure, small.expect);
+        }
+        let mut command = format!("validate run {path}");
+        command += &overrides.arguments();
         if let Some(n) = overrides.lines {
-            lines = LineRule::exactly(n).map_err(value)?;
+            lines = LineRule::exactly(n).map_err(|message| PlanError::Value {
+                path: format!("--lines {n}"),
+                message,
+            })?;
         }
         let plan = Self {
-            name: name.into(),
-            command: format!("validate run {path}{}", if quick { " --quick" } else { "" }),
+            name: format!("{name}{}", if quick { "-quick" } else { "" }),
+            command,
             question: file.question,
             seed: overrides.seed.unwrap_or(file.seed),
             scenes,
@@ -312,64 +371,186 @@ impl Plan {
             expect,
             quick,
         };
-        plan.check().map_err(value)?;
+        plan.check()
+            .map_err(|Wrong { key, message }| match place(text, key, quick) {
+                Some(offset) => at(offset, message),
+                None => value(&message),
+            })?;
         Ok(plan)
     }
 
     /// Whether the values make sense together; the error says what would.
-    pub fn check(&self) -> Result<(), String> {
-        if self.scenes.is_empty() || self.strategies.is_empty() {
-            return Err("scenes and strategies must each name at least one".into());
+    pub fn check(&self) -> Result<(), Wrong> {
+        wrong_unless(!self.question.trim().is_empty(), "question", || {
+            "the question is empty; it is printed with every answer".into()
+        })?;
+        for (key, empty) in [
+            ("scenes", self.scenes.is_empty()),
+            ("strategies", self.strategies.is_empty()),
+        ] {
+            wrong_unless(!empty, key, || format!("{key} must name at least one"))?;
         }
         let mut seen = HashSet::new();
-        if let Some(twice) = self.scenes.iter().find(|s| !seen.insert(s.as_str())) {
-            return Err(format!("scene '{twice}' is named twice"));
+        for scene in &self.scenes {
+            wrong_unless(seen.insert(scene.as_str()), "scenes", || {
+                format!("scene '{scene}' is named twice")
+            })?;
         }
         let mut seen = HashSet::new();
-        if let Some(twice) = self.strategies.iter().find(|s| !seen.insert(**s)) {
-            return Err(format!("strategy '{twice}' is named twice"));
+        for &strategy in &self.strategies {
+            wrong_unless(seen.insert(strategy), "strategies", || {
+                format!("strategy '{strategy}' is named twice")
+            })?;
         }
-        if !self.scenes.contains(&self.figure.scene)
-            || !self.strategies.contains(&self.figure.strategy)
-        {
-            let Figure { scene, strategy } = &self.figure;
-            return Err(format!(
+        let Figure { scene, strategy } = &self.figure;
+        let drawn = self.scenes.contains(scene) && self.strategies.contains(strategy);
+        wrong_unless(drawn, "figure", || {
+            format!(
                 "the figure's cell ({scene}, {strategy}) is not among the scenes and strategies"
-            ));
-        }
+            )
+        })?;
         let CostModel { c_k, c_b, c_t } = self.cost;
-        if ![c_k, c_b, c_t].iter().all(|c| c.is_finite() && *c >= 0.0) || c_k + c_b + c_t == 0.0 {
-            return Err(
-                "the costs c_k, c_b, c_t must be finite, none negative, and not all 0".into(),
-            );
-        }
+        let possible = [c_k, c_b, c_t]
+            .iter()
+            .all(|c| (0.0..=MOST_COST).contains(c));
+        wrong_unless(possible && c_k + c_b + c_t > 0.0, "cost", || {
+            format!(
+                "c_k = {c_k}, c_b = {c_b}, c_t = {c_t}, but costs must be at most {MOST_COST:e}, none negative, and not \
+                 all 0"
+            )
+        })?;
         let Expect {
             slope_within,
             family,
             gate,
         } = self.expect;
-        if !(slope_within > 0.0 && (0.0..1.0).contains(&family) && (0.0..1.0).contains(&gate)) {
-            return Err(
-                "expect.slope_within must be above 0, expect.family and expect.gate 0 to 1".into(),
-            );
-        }
+        let finite = slope_within > 0.0 && slope_within.is_finite();
+        wrong_unless(finite, "expect.slope_within", || {
+            format!("expect.slope_within = {slope_within}, but it must be a number above 0")
+        })?;
+        let likely = (LEAST_FAMILY..1.0).contains(&family);
+        wrong_unless(likely, "expect.family", || {
+            format!(
+                "expect.family = {family}, but it must be at least {LEAST_FAMILY:e} and below 1"
+            )
+        })?;
+        wrong_unless((0.0..1.0).contains(&gate), "expect.gate", || {
+            format!("expect.gate = {gate}, but it must be 0 to 1, 1 excluded")
+        })?;
         if let Some(Controls {
             lines,
             rejected_below,
             accepted_above,
         }) = self.controls
-            && !(lines >= FEWEST_LINES
-                && (0.0..1.0).contains(&rejected_below)
-                && (0.0..1.0).contains(&accepted_above))
         {
-            return Err(format!(
-                "controls.lines must be at least {FEWEST_LINES}, its bounds 0 to 1"
-            ));
+            wrong_unless(lines >= FEWEST_LINES, "controls.lines", || {
+                format!("controls.lines = {lines}, but it must be at least {FEWEST_LINES}")
+            })?;
+            for (key, bound) in [
+                ("controls.rejected_below", rejected_below),
+                ("controls.accepted_above", accepted_above),
+            ] {
+                wrong_unless((0.0..1.0).contains(&bound), key, || {
+                    format!("{key} = {bound}, but it must be 0 to 1, 1 excluded")
+                })?;
+            }
         }
         self.lines.check()
     }
 }
 
+/// Costs above this could leave f64 in a sum.
+const MOST_COST: f64 = 1e100;
+
+/// The least chance of a miss of all intervals together for which their width can be computed.
+const LEAST_FAMILY: f64 = 1e-12;
+
+/// Where a key stands: in `[quick]` if the quick form has it, else outside; if not itself, then its table.
+fn place(text: &str, key: &str, quick: bool) -> Option<usize> {
+    let file = toml::de::DeTable::parse(text).ok()?;
+    let mut outside = Some(file.get_ref());
+    let mut found = None;
+    if quick && let Some((_, value)) = entry(file.get_ref(), "quick") {
+        let section = value.get_ref().as_table();
+        let first = key.split('.').next()?;
+        if section.is_some_and(|s| entry(s, first).is_some()) {
+            outside = section;
+        }
+    }
+    for part in key.split('.') {
+        let Some((key, value)) = outside.and_then(|table| entry(table, part)) else {
+            break;
+        };
+        found = Some(key);
+        outside = value.get_ref().as_table();
+    }
+    found
+}
+
+/// Where a key of a table stands, and its value.
+fn entry<'t, 'i>(
+    table: &'t toml::de::DeTable<'i>,
+    key: &str,
+) -> Option<(usize, &'t toml::Spanned<toml::de::DeValue<'i>>)> {
+    let (key, value) = table.iter().find(|(k, _)| k.get_ref().as_ref() == key)?;
+    Some((key.span().start, value))
+}
+
 fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = include_str!("../../experiments/figure3.toml");
+
+    #[test]
+    fn the_command_repeats_the_run() {
+        let command = |seed, lines, quick| {
+            let overrides = Overrides { seed, lines, quick };
+            let plan = Plan::parse(FILE, "x.toml", "x", overrides).expect("a plan");
+            (plan.name, plan.command)
+        };
+        assert_eq!(
+            command(None, None, false),
+            ("x".into(), "validate run x.toml".into())
+        );
+        assert_eq!(
+            command(Some(7), Some(4096), true),
+            (
+                "x-quick".into(),
+                "validate run x.toml --quick --seed 7 --lines 4096".into()
+            )
+        );
+    }
+
+    #[test]
+    fn wrong_values_are_found_where_they_stand() {
+        let error = |old: &str, new: &str| {
+            assert!(FILE.contains(old), "{old}");
+            let text = FILE.replacen(old, new, 1);
+            let line = 1 + text[..text.find(new).expect("new")].matches('\n').count();
+            let error = Plan::parse(&text, "x.toml", "x", Overrides::default());
+            let error = error.expect_err(new).to_string();
+            assert!(error.starts_with(&format!("x.toml:{line}:")), "{error}");
+        };
+        error("family = 0.01 ", "family = 1e-13 ");
+        error("gate = 0.001 ", "gate = 1.0 ");
+        error("accepted_above = 1e-4", "accepted_above = -1.0");
+        error("slope_error = 0.002", "slope_error = 2.0");
+        error("max = 16_777_216", "max = 16");
+        error("question = ", "question = \"\" # ");
+    }
+
+    #[test]
+    fn names_of_folders() {
+        for name in ["validate", "figure3-quick", "a_b.c"] {
+            assert!(is_folder_name(name), "{name}");
+        }
+        for name in ["", ".", "..", ".git", "a/b", "a\\b", "a b", "a:b"] {
+            assert!(!is_folder_name(name), "{name}");
+        }
+    }
 }
