@@ -74,8 +74,9 @@ fn a_run_writes_data_tables_plots_and_a_summary() {
                 .and(contains("held    slope-within"))
                 .and(contains("sah")),
         )
-        .stderr(predicate::str::is_empty());
+        .stderr("counting lines through 2 cells\n");
     for file in [
+        "data/e/README.md",
         "data/e/cells.csv",
         "data/e/bins.csv",
         "data/e/nodes.csv",
@@ -152,7 +153,7 @@ fn finished_cells_are_kept_unless_forced() {
     let before = contents(&first);
     run(&[]).stderr(contains("2 of 2 cells were finished by an earlier run"));
     assert!(before == contents(&first));
-    run(&["--force"]).stderr(predicate::str::is_empty());
+    run(&["--force"]).stderr("counting lines through 2 cells\n");
     assert!(before == contents(&first));
 
     // A stopped run: one cell is missing, the other is kept.
@@ -162,11 +163,150 @@ fn finished_cells_are_kept_unless_forced() {
         .find(|p| p.extension().unwrap() == "json")
         .unwrap();
     fs::remove_file(lost).unwrap();
-    run(&[]).stderr(contains("1 of 2 cells"));
+    run(&[]).stderr(contains("through 1 cell\n").and(contains("1 of 2 cells")));
     assert!(before == contents(&first));
+    run(&["--quiet"]).stderr(predicate::str::is_empty());
     // Another seed is another cell, never the old one.
-    run(&["--seed", "6"]).stderr(predicate::str::is_empty());
+    run(&["--seed", "6"]).stderr("counting lines through 2 cells\n");
     assert!(before != contents(&first));
+    // The times of cells that are not this run's stay, and are found again.
+    run(&["--quiet"]).stdout(contains("speed"));
+    let timings = fs::read_to_string(folder.path().join("data/e/timings.csv")).unwrap();
+    assert_eq!(timings.lines().count(), 1 + 4);
+    fs::remove_file(folder.path().join("data/e/timings.csv")).unwrap();
+    run(&["--quiet"]);
+    let timings = fs::read_to_string(folder.path().join("data/e/timings.csv")).unwrap();
+    assert_eq!(
+        timings,
+        "cell,scene,strategy,build_s,count_s,threads,visits\n"
+    );
+}
+
+#[test]
+fn damaged_cells_are_measured_again() {
+    let folder = with_experiment(&GOOD.replace("nodes = false", "nodes = true"));
+    let run = |told: &str| {
+        validate(folder.path())
+            .args(["run", "e.toml"])
+            .assert()
+            .code(0)
+            .stderr(contains(told));
+    };
+    run("through 2 cells");
+    let data = folder.path().join("data");
+    let before = contents(&data);
+    let files = |ending: &str| -> Vec<std::path::PathBuf> {
+        let all = fs::read_dir(data.join("e/cells")).unwrap();
+        let mut found: Vec<_> = all
+            .map(|c| c.unwrap().path())
+            .filter(|p| p.display().to_string().ends_with(ending))
+            .collect();
+        found.sort();
+        found
+    };
+    let (nodes, cells) = (files(".nodes.csv"), files(".json"));
+    assert_eq!((nodes.len(), cells.len()), (2, 2));
+    let text = fs::read_to_string(&nodes[0]).unwrap();
+    let digit = text.rfind('1').unwrap();
+    let corrupted = format!("{}2{}", &text[..digit], &text[digit + 1..]);
+    let last_row = text.trim_end().rfind('\n').unwrap();
+    let truncated = &text[..=last_row];
+    let foreign = fs::read_to_string(&nodes[1]).unwrap();
+    for wrong in [&corrupted, truncated, &foreign, ""] {
+        fs::write(&nodes[0], wrong).unwrap();
+        run("1 of 2 cells");
+        assert!(before == contents(&data));
+    }
+    fs::remove_file(&nodes[0]).unwrap();
+    run("1 of 2 cells");
+    assert!(before == contents(&data));
+    // Another cell under this one's name, and another program's.
+    let own = fs::read_to_string(&cells[0]).unwrap();
+    let other = fs::read_to_string(&cells[1]).unwrap();
+    let older = own.replacen("\"revision\":\"", "\"revision\":\"0", 1);
+    assert_ne!(older, own);
+    for wrong in [&other, &older, "{"] {
+        fs::write(&cells[0], wrong).unwrap();
+        run("1 of 2 cells");
+        assert!(before == contents(&data));
+    }
+}
+
+#[test]
+fn quick_runs_have_folders_of_their_own() {
+    let folder = with_experiment(GOOD);
+    validate(folder.path())
+        .args(["run", "e.toml", "--quick", "--quiet"])
+        .assert()
+        .code(0);
+    assert!(folder.path().join("data/e-quick/summary.json").is_file());
+    assert!(folder.path().join("plots/e-quick/figure3.svg").is_file());
+    assert!(!folder.path().join("data/e").exists());
+    // Without the section there is no quick form, but the full one.
+    let full = GOOD.split("[quick]").next().unwrap();
+    let folder = with_experiment(full);
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--quick"],
+        &["e.toml", "section [quick]", "figure and expect"],
+    );
+    validate(folder.path())
+        .args(["run", "e.toml", "--dry-run"])
+        .assert()
+        .code(0);
+}
+
+#[test]
+fn runs_are_published_one_by_one() {
+    let folder = with_experiment(GOOD);
+    let root = folder.path();
+    for name in ["e", "f"] {
+        fs::write(root.join(format!("{name}.toml")), GOOD).unwrap();
+        validate(root)
+            .args(["run", &format!("{name}.toml"), "--quiet", "--lines", "4096"])
+            .assert()
+            .code(predicate::in_iter([0, 1]));
+    }
+    let block = |name: &str, text: &str| {
+        format!("<!-- BEGIN data/published/{name}/tables/cells.md -->\n{text}\n<!-- END -->\n")
+    };
+    let readme = || fs::read_to_string(root.join("README.md")).unwrap();
+    let text = block("e", "old") + &block("f", "old");
+    fs::write(root.join("README.md"), &text).unwrap();
+    let publish = |names: &[&str]| validate(root).arg("publish").args(names).assert();
+
+    // One that is not finished: none is copied.
+    fs::create_dir_all(root.join("data/unfinished")).unwrap();
+    for wrong in ["unfinished", "published", "../e", "", "nowhere"] {
+        publish(&["e", wrong]).code(2);
+        assert!(!root.join("data/published").exists() && readme() == text);
+    }
+    publish(&["unfinished"])
+        .code(2)
+        .stderr(contains("no summary.json"));
+    publish(&["e"]).code(0).stderr(contains(
+        "data/published/f/tables/cells.md: not published yet",
+    ));
+    assert!(readme().ends_with(&block("f", "old")) && !readme().starts_with(&block("e", "old")));
+    // What is published replaces what was.
+    let stale = [
+        root.join("data/published/e/tables/stale.md"),
+        root.join("plots/published/e/stale.svg"),
+    ];
+    for file in &stale {
+        fs::write(file, "old").unwrap();
+    }
+    publish(&["e", "f"])
+        .code(0)
+        .stderr(predicate::str::is_empty());
+    assert!(!readme().contains("old"));
+    assert!(stale.iter().all(|file| !file.exists()));
+    assert!(root.join("plots/published/f/figure3.svg").is_file());
+    // A benchmark has no summary.
+    fs::create_dir_all(root.join("data/bench")).unwrap();
+    fs::write(root.join("data/bench/throughput.md"), "| 1 |\n").unwrap();
+    publish(&["bench"]).code(0);
+    assert!(root.join("data/published/bench/throughput.md").is_file());
 }
 
 #[test]
@@ -192,6 +332,15 @@ fn tables_and_plots_are_redone_from_data_alone() {
         .assert()
         .code(0)
         .stdout(contains("cells.tex"));
+    // Elsewhere, if asked for.
+    for command in ["plots", "tables"] {
+        validate(folder.path())
+            .args([command, "data/e", "--out", "x"])
+            .assert()
+            .code(0);
+    }
+    assert!(before == contents(&folder.path().join("x/plots")));
+    assert!(folder.path().join("x/data/e/tables/cells.md").is_file());
 }
 
 #[test]
@@ -214,7 +363,16 @@ fn json_is_all_that_stdout_holds() {
         .unwrap();
     let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
     assert_eq!(summary["quick"], true);
-    assert_eq!(summary["experiment"], "e");
+    assert_eq!(summary["experiment"], "e-quick");
+    // Several summaries are one array.
+    fs::write(folder.path().join("f.toml"), GOOD).unwrap();
+    let output = validate(folder.path())
+        .args(["run", "e.toml", "f.toml", "--json", "--quick"])
+        .output()
+        .unwrap();
+    let summaries: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    let names = [0, 1].map(|i| summaries[i]["experiment"].as_str().unwrap());
+    assert_eq!(names, ["e-quick", "f-quick"]);
 }
 
 #[test]
@@ -225,6 +383,19 @@ fn a_dry_run_writes_nothing() {
         .assert()
         .code(0)
         .stdout(contains("simple:uniform:200").and(contains("spatial-median")));
+    validate(folder.path())
+        .args([
+            "run",
+            "e.toml",
+            "--dry-run",
+            "--seed",
+            "1e3",
+            "--lines",
+            "2^11",
+        ])
+        .assert()
+        .code(0)
+        .stdout(contains("seed 1000").and(contains("at least 2048 lines")));
     assert!(!folder.path().join("data").exists());
 }
 
@@ -241,7 +412,12 @@ fn one_scene_says_which_strategy_to_take() {
         .assert()
         .code(predicate::in_iter([0, 1]))
         .stdout(contains("two.obj: 2 objects").and(contains("sah-between-medians")));
-    assert!(folder.path().join("plots/scene-two/figure3.svg").is_file());
+    assert!(
+        folder
+            .path()
+            .join("plots/scene-two-obj/figure3.svg")
+            .is_file()
+    );
     // A single object is a tree of one leaf: defined, nothing to fit.
     fs::write(
         folder.path().join("one.obj"),
@@ -253,7 +429,7 @@ fn one_scene_says_which_strategy_to_take() {
         .assert()
         .code(0)
         .stdout(contains("Every strategy gives a tree of the same cost"));
-    let cells = fs::read_to_string(folder.path().join("data/scene-one/cells.csv")).unwrap();
+    let cells = fs::read_to_string(folder.path().join("data/scene-one-obj/cells.csv")).unwrap();
     assert!(!cells.contains("NaN") && !cells.contains("inf"));
 }
 
@@ -329,7 +505,7 @@ fn refused(folder: &Path, args: &[&str], parts: &[&str]) {
 
 #[test]
 fn bad_experiments_are_refused() {
-    let cases: [(&str, &str, &[&str]); 14] = [
+    let cases: [(&str, &str, &[&str]); 21] = [
         (
             "kind = \"hits-vs-area\"",
             "kind = \"hits\"",
@@ -359,33 +535,72 @@ fn bad_experiments_are_refused() {
         (
             "[\"simple:uniform:200\"]",
             "[]",
-            &["e.toml", "scenes", "at least one"],
+            &["e.toml:4:1", "scenes", "at least one"],
         ),
         (
             "[\"sah\", \"spatial-median\"]",
             "[\"sah\", \"sah\"]",
-            &["'sah' is named twice"],
+            &["e.toml:5:1", "'sah' is named twice"],
         ),
-        ("c_t = 20.0", "c_t = -1.0", &["c_t", "none negative"]),
+        (
+            "[\"simple:uniform:200\"]",
+            "[\"simple:uniform:200\", \"simple:uniform:2000\", \"simple:uniform\"]",
+            &["e.toml", "'simple:uniform:2000' is named twice"],
+        ),
+        (
+            "c_t = 20.0",
+            "c_t = -1.0",
+            &["e.toml:8:1", "c_t = -1", "none negative"],
+        ),
+        (
+            "c_t = 20.0",
+            "c_t = 1e101",
+            &["e.toml:8:1", "c_t = 1", "at most 1e100"],
+        ),
+        (
+            "family = 0.01",
+            "family = 0.0",
+            &["e.toml:11:32", "expect.family = 0,", "1e-12"],
+        ),
+        (
+            "family = 0.01",
+            "family = 1.0",
+            &["e.toml:11:32", "expect.family = 1,"],
+        ),
+        (
+            "slope_within = 0.1",
+            "slope_within = 0.0",
+            &["e.toml:11:12", "expect.slope_within = 0,"],
+        ),
+        (
+            "\"Does it work?\"",
+            "\" \"",
+            &["e.toml:2:1", "question is empty"],
+        ),
+        (
+            "\"objects:2:10\"",
+            "\"depth:23\"",
+            &["e.toml:6", "'depth:23'", "at most 22", "2^23 nodes"],
+        ),
         (
             "min = 65536, max = 65536",
             "min = 65536, max = 5",
-            &["lines.max = 5", "lines.min"],
+            &["e.toml:9:43", "lines.max = 5", "lines.min = 65536"],
         ),
         (
             "min = 65536, max",
             "min = 5, max",
-            &["5 lines", "at least 1024"],
+            &["e.toml:9:30", "5 lines", "at least 1024"],
         ),
         (
             "gate = 0.001 }\n\n[quick]",
             "gate = 2.0 }\n\n[quick]",
-            &["expect.gate", "0 to 1"],
+            &["e.toml:11:47", "expect.gate = 2", "0 to 1"],
         ),
         (
             "strategy = \"sah\" }\nexpect = { slope_within = 0.1",
             "strategy = \"sah-cyclic\" }\nexpect = { slope_within = 0.1",
-            &["figure", "not among"],
+            &["e.toml:10:1", "figure", "not among"],
         ),
         (
             "question = \"Does it work?\"",
@@ -397,6 +612,19 @@ fn bad_experiments_are_refused() {
         assert!(GOOD.contains(old), "{old}");
         let folder = with_experiment(&GOOD.replacen(old, new, 1));
         refused(folder.path(), &["run", "e.toml"], parts);
+    }
+    // The quick form's values stand in its own section.
+    let folder = with_experiment(&GOOD.replace("slope_within = 0.2", "slope_within = -1.0"));
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--quick"],
+        &["e.toml:17:12", "expect.slope_within = -1,"],
+    );
+    for name in ["published", "Bench", "reference", "a b", ".x", "a,b"] {
+        let folder = tempdir().unwrap();
+        let file = format!("{name}.toml");
+        fs::write(folder.path().join(&file), GOOD).unwrap();
+        refused(folder.path(), &["run", &file], &[&file, "cannot name"]);
     }
 }
 
@@ -417,6 +645,16 @@ fn bad_scenes_are_refused() {
         refused(folder.path(), &["run", "e.toml"], parts);
         refused(folder.path(), &["scene", scene], parts);
     }
+    // A mesh that has not been fetched: the message first, then what to do.
+    let folder = with_scene("models/none.ply");
+    refused(
+        folder.path(),
+        &["run", "e.toml"],
+        &[
+            "error: e.toml: models/none.ply: cannot read the file: ",
+            "; experiments/fetch-meshes.sh fetches",
+        ],
+    );
     // An empty scene.
     let folder = tempdir().unwrap();
     fs::write(folder.path().join("empty.obj"), "v 0 0 0\n").unwrap();
@@ -424,6 +662,15 @@ fn bad_scenes_are_refused() {
         folder.path(),
         &["scene", "empty.obj"],
         &["empty.obj", "empty", "at least one"],
+    );
+    fs::write(folder.path().join("strange.obj"), "v 0 0 0\nfoo 1\nfoo 2\n").unwrap();
+    refused(
+        folder.path(),
+        &["scene", "strange.obj"],
+        &[
+            "empty",
+            "2 lines with the unknown keyword 'foo' passed over",
+        ],
     );
 }
 
@@ -441,10 +688,24 @@ fn bad_arguments_are_refused() {
         &["run", "e.toml", "--lines", "many"],
         &["--lines", "2^20"],
     );
+    for option in ["--seed", "--lines"] {
+        for wrong in ["-1", "-1e3", "1.5"] {
+            refused(
+                folder.path(),
+                &["run", "e.toml", option, wrong],
+                &[option, wrong, "expected a whole number"],
+            );
+        }
+    }
+    refused(
+        folder.path(),
+        &["run", "e.toml", "--threads", "-1"],
+        &["--threads", "-1", "1..=1024"],
+    );
     refused(
         folder.path(),
         &["run", "e.toml", "--lines", "10"],
-        &["10 lines", "at least 1024"],
+        &["--lines 10:", "10 lines", "at least 1024"],
     );
     refused(
         folder.path(),
@@ -465,7 +726,7 @@ fn bad_arguments_are_refused() {
     refused(
         folder.path(),
         &["plots", "nowhere"],
-        &["nowhere", "summary.json"],
+        &["nowhere", "summary.json", "such as data/validate"],
     );
     refused(
         folder.path(),
@@ -488,9 +749,13 @@ fn unwritable_output_is_refused() {
         .output()
         .unwrap();
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        String::from_utf8(output.stderr)
-            .unwrap()
-            .contains("cannot write")
-    );
+    let message = String::from_utf8(output.stderr).unwrap();
+    assert!(message.contains("cannot write"), "{message}");
+    // Found before anything is counted, for the figures too.
+    fs::write(folder.path().join("plots"), "").unwrap();
+    validate(folder.path())
+        .args(["run", "e.toml"])
+        .assert()
+        .code(2)
+        .stderr(contains("plots/e: cannot write").and(contains("counting").not()));
 }

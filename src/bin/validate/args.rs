@@ -1,6 +1,6 @@
 //! The command line.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
@@ -31,22 +31,22 @@ const EXAMPLES: &str = "Examples:
 /// Flags of every command.
 #[derive(Args, Clone)]
 pub struct Common {
-    /// Folder that gets data/NAME and plots/NAME.
-    #[arg(short, long, global = true, default_value = ".", value_name = "DIR")]
-    pub out: PathBuf,
-    /// Seed of the lines, instead of the experiment's.
-    #[arg(long, global = true, value_name = "N")]
+    /// Folder that gets data/NAME and plots/NAME [default: the current one; for `plots` and `tables` the run's own].
+    #[arg(short, long, global = true, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Seed of the lines, instead of the experiment's; a count as for --lines.
+    #[arg(long, global = true, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub seed: Option<u64>,
     /// Threads that count (all cores if not given). Results do not depend on it.
-    #[arg(long, global = true, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=1024))]
+    #[arg(long, global = true, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
     /// Lines a cell counts, instead of the experiment's rule; 1000000, 1e6 and 2^20 are understood.
-    #[arg(long, global = true, value_name = "N", value_parser = count)]
+    #[arg(long, global = true, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub lines: Option<u64>,
-    /// Fewer lines and smaller scenes, as the experiment file says; nothing to publish.
+    /// Fewer lines and smaller scenes, as the experiment file says, into data/NAME-quick; nothing to publish.
     #[arg(long, global = true)]
     pub quick: bool,
-    /// Print the summary as JSON on standard output.
+    /// Print the summary as JSON on standard output; those of several experiments as an array.
     #[arg(long, global = true)]
     pub json: bool,
     /// No progress and no notes on standard error.
@@ -58,6 +58,13 @@ pub struct Common {
     /// Say what would be measured, and write nothing.
     #[arg(long, global = true)]
     pub dry_run: bool,
+}
+
+impl Common {
+    /// The folder that has `data` and `plots`.
+    pub fn root(&self) -> &Path {
+        self.out.as_deref().unwrap_or(Path::new("."))
+    }
 }
 
 /// The commands.

@@ -6,7 +6,7 @@ mod progress;
 mod publish;
 mod run;
 
-use std::path::Path;
+use std::path::PathBuf;
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
@@ -14,9 +14,9 @@ use clap::Parser;
 use sahlab::cost::CostModel;
 use sahlab::kd::{StopRule, Strategy};
 use sahlab::rays::LineLaw;
-use sahlab::report::{read_run, screen, write_plots, write_tables};
+use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
-use sahlab::study::plan::{Expect, Figure, Overrides};
+use sahlab::study::plan::{Expect, Figure, Overrides, PlanError};
 use sahlab::study::{LineRule, Plan};
 
 use args::{Cli, Command, Common, Listed};
@@ -60,40 +60,78 @@ fn execute(cli: &Cli) -> Result<bool> {
         None => {
             let (name, text) = EXPERIMENTS[0];
             let plan = Plan::parse(text, &format!("experiments/{name}.toml"), name, overrides)?;
-            run_plans(vec![plan], common)
+            run_plans(
+                vec![(format!("experiments/{name}.toml").into(), plan)],
+                common,
+            )
         }
         Some(Command::Run { experiments }) => {
-            let plans = experiments.iter().map(|path| Plan::read(path, overrides));
+            let plans = experiments
+                .iter()
+                .map(|path| Ok::<_, PlanError>((path.clone(), Plan::read(path, overrides)?)));
             run_plans(plans.collect::<Result<_, _>>()?, common)
         }
         Some(Command::Scene { scene, stop }) => one_scene(scene, *stop, common, overrides),
         Some(Command::List { what }) => print(&list(*what)).map(|()| true).map_err(Into::into),
         Some(Command::Plots { folder }) => {
-            let files = write_plots(&read_run(folder)?, &run::plots_of(folder)?)?;
+            let run = run::read(folder)?;
+            let plots = match &common.out {
+                Some(out) => out.join("plots").join(run::name_of(folder)?),
+                None => run::plots_of(folder)?,
+            };
+            let files = write_plots(&run, &plots)?;
             print(&paths(&files))?;
             Ok(true)
         }
         Some(Command::Tables { folder }) => {
-            let files = write_tables(&read_run(folder)?, &folder.join("tables"))?;
+            let run = run::read(folder)?;
+            let data = match &common.out {
+                Some(out) => out.join("data").join(run::name_of(folder)?),
+                None => folder.clone(),
+            };
+            let files = write_tables(&run, &data.join("tables"))?;
             print(&paths(&files))?;
             Ok(true)
         }
-        Some(Command::Publish { names }) => publish::publish(&common.out, names, !common.quiet),
+        Some(Command::Publish { names }) => publish::publish(common.root(), names, !common.quiet),
     }
 }
 
 /// Everything that can be wrong with the input is found before the first line is counted.
-fn run_plans(mut plans: Vec<Plan>, common: &Common) -> Result<bool> {
-    run::check_names(&plans)?;
-    let scenes: Vec<Vec<Scene>> = plans
-        .iter_mut()
-        .map(run::load_scenes)
-        .collect::<Result<_>>()?;
-    let mut held = true;
-    for (plan, scenes) in plans.iter().zip(&scenes) {
-        held &= run::run(plan, scenes, common, screen::study)?;
+fn run_plans(plans: Vec<(PathBuf, Plan)>, common: &Common) -> Result<bool> {
+    run::check_names(plans.iter().map(|(_, plan)| plan))?;
+    let mut loaded = Vec::new();
+    for (path, mut plan) in plans {
+        let scenes = run::load_scenes(&mut plan, Some(&path))?;
+        loaded.push((plan, scenes));
     }
-    Ok(held)
+    run_loaded(&loaded, common, screen::study)
+}
+
+/// Run plans over their scenes. Says whether every expectation held.
+fn run_loaded(
+    plans: &[(Plan, Vec<Scene>)],
+    common: &Common,
+    show: fn(&Run) -> String,
+) -> Result<bool> {
+    if common.dry_run {
+        for (plan, scenes) in plans {
+            print(&run::describe(plan, scenes))?;
+        }
+        return Ok(true);
+    }
+    for (plan, _) in plans {
+        run::prepare(plan, common)?;
+    }
+    let runs = plans
+        .iter()
+        .map(|(plan, scenes)| run::run(plan, scenes, common, show))
+        .collect::<Result<Vec<_>>>()?;
+    if common.json {
+        run::print_json(&runs)?;
+    }
+    let mut verdicts = runs.iter().flat_map(|run| &run.summary.verdicts);
+    Ok(verdicts.all(|v| v.held))
 }
 
 /// `validate scene`: the same measurement on one scene, every strategy.
@@ -106,7 +144,10 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
     };
     let mut plan = Plan {
         name: String::new(),
-        command: format!("validate scene {spec} --stop {stop}"),
+        command: format!(
+            "validate scene {spec} --stop {stop}{}",
+            overrides.arguments()
+        ),
         question: format!(
             "What does a kd-tree over {spec} cost, and which strategy should build it?"
         ),
@@ -129,22 +170,17 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
         },
         quick: common.quick,
     };
-    let scenes = run::load_scenes(&mut plan)?;
-    plan.name = format!("scene-{}", file_name_of(&plan.scenes[0]));
-    run::run(&plan, &scenes, common, screen::scene)
+    let scenes = run::load_scenes(&mut plan, None)?;
+    let quick = if common.quick { "-quick" } else { "" };
+    plan.name = format!("scene-{}{quick}", file_name_of(&plan.scenes[0]));
+    run_loaded(&[(plan, scenes)], common, screen::scene)
 }
 
-/// A scene's name as a part of a path: a file's stem, or the words of a procedural scene.
+/// A scene's name as a part of a path: its words, with one dash between them.
 fn file_name_of(scene: &str) -> String {
-    let name = match scene.split_once(':') {
-        Some(("simple" | "spd", _)) => scene.into(),
-        _ => Path::new(scene)
-            .file_stem()
-            .unwrap_or_default()
-            .to_string_lossy()
-            .into_owned(),
-    };
-    name.replace(|c: char| !c.is_alphanumeric() && c != '_', "-")
+    let words = scene.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-")
 }
 
 fn list(what: Option<Listed>) -> String {
@@ -188,4 +224,18 @@ fn list(what: Option<Listed>) -> String {
 
 fn paths(files: &[std::path::PathBuf]) -> String {
     files.iter().map(|f| format!("{}\n", f.display())).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn scenes_of_different_folders_have_folders_of_their_own() {
+        assert_eq!(file_name_of("spd:balls:4"), "spd-balls-4");
+        assert_eq!(file_name_of("sub/one.off"), "sub-one-off");
+        assert_eq!(file_name_of("./a__b/..//c (1).obj"), "a-b-c-1-obj");
+        assert_ne!(file_name_of("x/one.obj"), file_name_of("y/one.obj"));
+        assert_ne!(file_name_of("one.ply"), file_name_of("one.obj"));
+    }
 }

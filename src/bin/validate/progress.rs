@@ -40,6 +40,14 @@ impl Progress {
         }
     }
 
+    /// So many cells are going to be counted: told where no bar shows it.
+    pub fn announce(&self, cells: usize) {
+        if self.spoken.is_some() && cells > 0 {
+            let s = if cells == 1 { "" } else { "s" };
+            let _ = writeln!(io::stderr(), "counting lines through {cells} cell{s}");
+        }
+    }
+
     /// A cell begins.
     pub fn begin(&self, scene: &str, strategy: &str) {
         self.bar.set_message(format!("{scene} {strategy}"));

@@ -4,12 +4,14 @@
 //! names. No number in README is typed by hand.
 
 use std::fs;
+use std::io::ErrorKind;
 use std::path::Path;
 
 use anyhow::{Context, Result, bail};
 use sahlab::files::write_atomic;
+use sahlab::study::plan::is_folder_name;
 
-use crate::output::print;
+use crate::output::{note, print};
 
 const BEGIN: &str = "<!-- BEGIN ";
 const END: &str = "<!-- END -->";
@@ -18,24 +20,35 @@ const END: &str = "<!-- END -->";
 pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
     for name in names {
         let data = root.join("data").join(name);
-        check(&data)?;
+        check(name, &data)?;
     }
     for name in names {
-        copy(
-            &root.join("data").join(name),
-            &root.join("data/published").join(name),
-        )?;
-        let plots = root.join("plots").join(name);
-        if plots.is_dir() {
-            copy(&plots, &root.join("plots/published").join(name))?;
+        for part in ["data", "plots"] {
+            let from = root.join(part).join(name);
+            let to = root.join(part).join("published").join(name);
+            // What an earlier publication left may not belong to this run.
+            match fs::remove_dir_all(&to) {
+                Err(error) if error.kind() != ErrorKind::NotFound => {
+                    return Err(error).with_context(|| format!("{}: cannot replace", to.display()));
+                }
+                _ => {}
+            }
+            if from.is_dir() {
+                copy(&from, &to)?;
+            }
         }
     }
     let readme = root.join("README.md");
     let text = fs::read_to_string(&readme)
         .with_context(|| format!("{}: cannot read", readme.display()))?;
-    let spliced = splice(&text, root).with_context(|| readme.display().to_string())?;
+    let (spliced, absent) = splice(&text, root).with_context(|| readme.display().to_string())?;
     write_atomic(&readme, spliced.as_bytes())?;
     if speak {
+        for file in absent {
+            note(&format!(
+                "{file}: not published yet; its block in README.md stays as it was"
+            ));
+        }
         print(&format!(
             "published {}; {} is up to date\n",
             names.join(", "),
@@ -45,13 +58,27 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
     Ok(true)
 }
 
-/// A run may be published if it is finished and not the quick form; a benchmark has no summary.
-fn check(data: &Path) -> Result<()> {
+/// The folder of benchmarks, which has no summary.
+const BENCH: &str = "bench";
+
+/// A run may be published if it is finished and not the quick form.
+fn check(name: &str, data: &Path) -> Result<()> {
+    if !is_folder_name(name) {
+        bail!("'{name}' is no name of a run; expected that of a folder in data/, e.g. validate");
+    }
     if !data.is_dir() {
         bail!("{}: no such run; run it first", data.display());
     }
-    let summary = data.join("summary.json");
-    if summary.exists() && sahlab::report::read_run(data)?.summary.quick {
+    if name == BENCH {
+        return Ok(());
+    }
+    if !data.join("summary.json").is_file() {
+        bail!(
+            "{}: no summary.json, so not a finished run; run it to its end first",
+            data.display()
+        );
+    }
+    if sahlab::report::read_run(data)?.summary.quick {
         bail!(
             "{}: made with --quick; run it without to publish it",
             data.display()
@@ -79,9 +106,11 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Replace what stands in each block by the file that the block names.
-fn splice(text: &str, root: &Path) -> Result<String> {
+/// Replace what stands in each block by the file that the block names. Where there is no such file the block stays; gives
+/// these files too.
+fn splice(text: &str, root: &Path) -> Result<(String, Vec<String>)> {
     let mut out = String::new();
+    let mut absent = Vec::new();
     let mut rest = text;
     while let Some(begin) = rest.find(BEGIN) {
         let after = begin + BEGIN.len();
@@ -93,14 +122,19 @@ fn splice(text: &str, root: &Path) -> Result<String> {
         let end = rest[body..]
             .find(END)
             .with_context(|| format!("no {END} after BEGIN {file}"))?;
-        let content =
-            fs::read_to_string(root.join(file)).with_context(|| format!("{file}: cannot read"))?;
         out += &rest[..body];
-        out += &format!("\n{}\n", content.trim_end());
+        match fs::read_to_string(root.join(file)) {
+            Ok(content) => out += &format!("\n{}\n", content.trim_end()),
+            Err(error) if error.kind() == ErrorKind::NotFound => {
+                absent.push(file.into());
+                out += &rest[body..body + end];
+            }
+            Err(error) => return Err(error).with_context(|| format!("{file}: cannot read")),
+        }
         out += END;
         rest = &rest[body + end + END.len()..];
     }
-    Ok(out + rest)
+    Ok((out + rest, absent))
 }
 
 #[cfg(test)]
@@ -113,9 +147,11 @@ mod tests {
         fs::write(folder.path().join("t.md"), "| a |\n").expect("written");
         let text = "x\n<!-- BEGIN t.md -->\nold\n<!-- END -->\ny";
         let wanted = "x\n<!-- BEGIN t.md -->\n| a |\n<!-- END -->\ny";
-        assert_eq!(splice(text, folder.path()).expect("spliced"), wanted);
-        assert_eq!(splice(wanted, folder.path()).expect("spliced"), wanted);
+        let spliced = |text: &str| splice(text, folder.path()).expect("spliced");
+        assert_eq!(spliced(text), (wanted.into(), vec![]));
+        assert_eq!(spliced(wanted), (wanted.into(), vec![]));
+        let kept = format!("{wanted}<!-- BEGIN none.md -->\nold\n<!-- END -->");
+        assert_eq!(spliced(&kept), (kept.clone(), vec!["none.md".into()]));
         assert!(splice("<!-- BEGIN t.md -->", folder.path()).is_err());
-        assert!(splice("<!-- BEGIN none.md -->\n<!-- END -->", folder.path()).is_err());
     }
 }

@@ -1,5 +1,8 @@
 //! Running a plan: cells that are not finished yet are measured, then everything is written and drawn from files.
 
+use std::collections::HashSet;
+use std::ffi::{OsStr, OsString};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
@@ -20,15 +23,24 @@ use crate::progress::Progress;
 /// Lines a cell is guessed to take before its pilot, as a multiple of the least.
 const GUESS: u64 = 2;
 
-/// Load a plan's scenes; a procedural scene's name then carries its size, in the plan too.
-pub fn load_scenes(plan: &mut Plan) -> Result<Vec<Scene>> {
+/// What to do where a mesh of the experiments that come with the program is missing.
+const FETCH: &str =
+    "experiments/fetch-meshes.sh fetches the meshes of experiments/figure3.toml into models/";
+
+/// Load a plan's scenes; a procedural scene's name then carries its size, in the plan too. `place`: the experiment file, if
+/// there is one.
+pub fn load_scenes(plan: &mut Plan, place: Option<&Path>) -> Result<Vec<Scene>> {
+    let place = place.map_or_else(String::new, |path| format!("{}: ", path.display()));
     let mut scenes = Vec::new();
     for spec in &mut plan.scenes {
         let scene = Scene::load(spec).map_err(|error| {
-            let hint = "experiments/fetch-meshes.sh fetches the meshes of experiments/figure3.toml into models/";
             let missing = spec.starts_with("models/") && !Path::new(spec).exists();
-            let error = anyhow::Error::from(error);
-            if missing { error.context(hint) } else { error }
+            let remedy = if missing {
+                format!("; {FETCH}")
+            } else {
+                String::new()
+            };
+            anyhow!("{place}{:#}{remedy}", anyhow::Error::from(error))
         })?;
         if plan.figure.scene == *spec {
             plan.figure.scene.clone_from(&scene.name);
@@ -36,20 +48,30 @@ pub fn load_scenes(plan: &mut Plan) -> Result<Vec<Scene>> {
         spec.clone_from(&scene.name);
         scenes.push(scene);
     }
+    // Again, now that every scene has its full name: two ways to write one scene are the same scene.
+    plan.check().map_err(|wrong| anyhow!("{place}{wrong}"))?;
     Ok(scenes)
 }
 
-/// Run a plan over its scenes. Says whether every expectation held.
+/// The folders of a plan's data and figures.
+fn folders(plan: &Plan, common: &Common) -> [PathBuf; 2] {
+    ["data", "plots"].map(|part| common.root().join(part).join(&plan.name))
+}
+
+/// Make a plan's folders: one that cannot be written is found before anything is measured.
+pub fn prepare(plan: &Plan, common: &Common) -> Result<()> {
+    let [data, plots] = folders(plan, common);
+    Store::open(&data).prepare()?;
+    fs::create_dir_all(&plots).with_context(|| format!("{}: cannot write", plots.display()))
+}
+
+/// Run a plan over its scenes and print what came out, unless it is wanted as JSON. Gives the run as read from its files.
 pub fn run(
     plan: &Plan,
     scenes: &[Scene],
     common: &Common,
     show: fn(&Run) -> String,
-) -> Result<bool> {
-    if common.dry_run {
-        print(&describe(plan, scenes))?;
-        return Ok(true);
-    }
+) -> Result<Run> {
     if !common.quiet {
         for scene in scenes {
             for text in &scene.notes {
@@ -57,8 +79,7 @@ pub fn run(
             }
         }
     }
-    let data = common.out.join("data").join(&plan.name);
-    let plots = common.out.join("plots").join(&plan.name);
+    let [data, plots] = folders(plan, common);
     let results = measure_cells(plan, scenes, &data, common)?;
     let records: Vec<_> = results.iter().map(|r| r.record.clone()).collect();
     let samplers = check_samplers(plan, scenes, common);
@@ -69,15 +90,22 @@ pub fn run(
     let run = report::read_run(&data)?;
     report::write_tables(&run, &data.join("tables"))?;
     report::write_plots(&run, &plots)?;
-    if common.json {
-        let json =
-            serde_json::to_string_pretty(&run.summary).context("the summary is plain data")?;
-        print(&(json + "\n"))?;
-    } else {
+    if !common.json {
         let files = format!("data   {}\nplots  {}\n", data.display(), plots.display());
         print(&(show(&run) + &screen::speed(&run) + &files))?;
     }
-    Ok(run.summary.verdicts.iter().all(|v| v.held))
+    Ok(run)
+}
+
+/// Print summaries as JSON: one as itself, several as an array.
+pub fn print_json(runs: &[Run]) -> Result<()> {
+    let summaries: Vec<_> = runs.iter().map(|run| &run.summary).collect();
+    let json = match summaries[..] {
+        [one] => serde_json::to_string_pretty(one),
+        _ => serde_json::to_string_pretty(&summaries),
+    };
+    print(&(json.context("summaries are plain data")? + "\n"))?;
+    Ok(())
 }
 
 fn measure_cells(
@@ -89,14 +117,20 @@ fn measure_cells(
     let mut store = Store::open(data);
     let planned = cells(plan, scenes);
     let progress = Progress::new(planned.len(), GUESS * plan.lines.at_least(), common.quiet);
+    let finished: Vec<Option<CellResult>> = planned
+        .iter()
+        .map(|cell| {
+            store
+                .finished(&cell.id, cell.nodes)
+                .filter(|_| !common.force)
+        })
+        .collect();
+    let found = finished.iter().flatten().count();
+    progress.announce(planned.len() - found);
     let mut results = Vec::new();
-    let mut found = 0;
-    for cell in &planned {
-        if !common.force
-            && let Some(finished) = store.finished(&cell.id, cell.nodes)
-        {
+    for (cell, finished) in planned.iter().zip(finished) {
+        if let Some(finished) = finished {
             progress.skip();
-            found += 1;
             results.push(finished);
             continue;
         }
@@ -130,7 +164,7 @@ fn check_samplers(plan: &Plan, scenes: &[Scene], common: &Common) -> Vec<Sampler
 }
 
 /// What a dry run prints.
-fn describe(plan: &Plan, scenes: &[Scene]) -> String {
+pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
     let mut text = format!(
         "{}\n{}: stop {}, seed {}\n",
         plan.question, plan.name, plan.stop, plan.seed
@@ -150,9 +184,10 @@ fn describe(plan: &Plan, scenes: &[Scene]) -> String {
 }
 
 /// Names must differ, or one run would overwrite the other.
-pub fn check_names(plans: &[Plan]) -> Result<()> {
-    for (i, plan) in plans.iter().enumerate() {
-        if plans[..i].iter().any(|p| p.name == plan.name) {
+pub fn check_names<'a>(plans: impl Iterator<Item = &'a Plan>) -> Result<()> {
+    let mut seen = HashSet::new();
+    for plan in plans {
+        if !seen.insert(&plan.name) {
             bail!(
                 "two experiments are named '{}' and would share data/{0}; run them apart with --out",
                 plan.name
@@ -160,6 +195,26 @@ pub fn check_names(plans: &[Plan]) -> Result<()> {
         }
     }
     Ok(())
+}
+
+/// A finished run, read from its folder of data.
+pub fn read(folder: &Path) -> Result<Run> {
+    report::read_run(folder).map_err(|error| {
+        let remedy = if folder.join("summary.json").is_file() {
+            ""
+        } else {
+            "; expected the folder of a finished run such as data/validate"
+        };
+        anyhow!("{:#}{remedy}", anyhow::Error::from(error))
+    })
+}
+
+/// The name of the run in a folder of data.
+pub fn name_of(data: &Path) -> Result<OsString> {
+    let whole = data.canonicalize();
+    let whole = whole.with_context(|| format!("{}: cannot read", data.display()))?;
+    let name = whole.file_name().map(OsStr::to_os_string);
+    name.context("expected the folder of a finished run such as data/validate")
 }
 
 /// The folder of figures that belongs to a data folder: `plots` in place of `data`.
