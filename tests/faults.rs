@@ -194,6 +194,11 @@ fn rare_events_raise_no_false_alarm() {
         .iter()
         .map(|t| Triangle(t.0.map(|p| DVec3::new(p.x, p.y, 0.0))))
         .collect();
+    // Thinner than a pilot can tell from flat: sums of scores then differ by rounding alone.
+    let sheet: Vec<Triangle> = terrain
+        .iter()
+        .map(|t| Triangle(t.0.map(|p| DVec3::new(p.x, p.y, 1e-5 * p.z))))
+        .collect();
     let mut unjudged = 0;
     for (name, triangles) in [
         ("stadium 30", stadium(30.0)),
@@ -201,6 +206,7 @@ fn rare_events_raise_no_false_alarm() {
         ("stadium 1000", stadium(1000.0)),
         ("terrain", terrain),
         ("planar grid", grid),
+        ("sheet", sheet),
         ("needle", needle),
     ] {
         let objects = Objects {
@@ -226,7 +232,7 @@ fn rare_events_raise_no_false_alarm() {
                     .flatten()
                     .collect();
                 let least = holm(&p).into_iter().fold(1.0, f64::min);
-                // 360 gates: one below 1e-5 has a chance of 0.4 %.
+                // 420 gates: one below 1e-5 has a chance of 0.4 %.
                 assert!(least >= 1e-5, "{name} {strategy} seed {seed}: {p:?}");
                 for (what, predicted, counted, se) in [
                     ("n_K", r.n_k_predicted, r.n_k_counted, r.n_k_se),
@@ -237,7 +243,7 @@ fn rare_events_raise_no_false_alarm() {
                         unjudged += 1;
                         continue;
                     };
-                    // 1,080 intervals of 5 sigma: a miss has a chance of 0.06 %.
+                    // 1,260 intervals of 5 sigma: a miss has a chance of 0.07 %.
                     let off = (counted - predicted).abs();
                     assert!(
                         off <= 5.0 * se + 1e-9,
@@ -247,6 +253,6 @@ fn rare_events_raise_no_false_alarm() {
             }
         }
     }
-    println!("{unjudged} of 1080 counts hang on events too rare to judge");
-    assert!(unjudged < 540);
+    println!("{unjudged} of 1260 counts hang on events too rare to judge");
+    assert!(unjudged < 630);
 }

@@ -110,6 +110,19 @@ pub enum SceneError {
         /// The surface area.
         area: f64,
     },
+    /// The scene lies so far from the origin that its coordinates cannot tell its parts.
+    #[error(
+        "{name}: the longest side of the scene is {side:e}, but its coordinates reach {largest:e}, where f64 can tell few \
+         points of it apart; move the scene to the origin"
+    )]
+    Far {
+        /// The scene.
+        name: String,
+        /// Longest side of its box.
+        side: f64,
+        /// Largest coordinate.
+        largest: f64,
+    },
 }
 
 /// Notes as a remark at the end of a sentence.

@@ -73,7 +73,21 @@ impl Scene {
             return Err(SceneError::World { name, area });
         }
         notes.extend(degenerate(&objects));
-        notes.extend(far_away(&world));
+        let side = world.extent().max_element();
+        let largest = world.lo.abs().max(world.hi.abs()).max_element();
+        if side < FAR * largest {
+            return Err(SceneError::Far {
+                name,
+                side,
+                largest,
+            });
+        }
+        if side < NEAR * largest {
+            notes.push(format!(
+                "far from the origin: the longest side is {side:e}, the largest coordinate {largest:e}; rounding moves \
+                 objects against each other, so move the scene to the origin"
+            ));
+        }
         Ok(Self {
             name,
             objects,
@@ -191,17 +205,8 @@ fn degenerate(objects: &Objects) -> Option<String> {
 /// Least longest side, as a share of the largest coordinate, for which coordinates have seven digits to tell sides by.
 const NEAR: f64 = 1e-9;
 
-/// A note on a scene so far from the origin that rounding of its coordinates shows.
-fn far_away(world: &Aabb) -> Option<String> {
-    let side = world.extent().max_element();
-    let largest = world.lo.abs().max(world.hi.abs()).max_element();
-    (side < NEAR * largest).then(|| {
-        format!(
-            "far from the origin: the longest side is {side:e}, the largest coordinate {largest:e}; rounding moves objects \
-             against each other, so move the scene to the origin"
-        )
-    })
-}
+/// Below this share fewer than about 500 coordinates are left along the longest side: areas are noise.
+const FAR: f64 = 1e-13;
 
 /// A number with its noun.
 fn plural(n: usize, noun: &str) -> String {
@@ -224,6 +229,27 @@ mod tests {
 
     fn message(result: Result<Scene, SceneError>) -> String {
         result.expect_err("an error").to_string()
+    }
+
+    #[test]
+    fn far_scenes_are_told_or_refused() {
+        let at = |offset: f64| {
+            one_triangle([
+                [offset, 0.0, 0.0],
+                [offset + 1.0, 0.0, 0.0],
+                [offset, 1.0, 1.0],
+            ])
+        };
+        assert!(
+            Scene::new("x", at(1e8), Vec::new())
+                .expect("near")
+                .notes
+                .is_empty()
+        );
+        let notes = Scene::new("x", at(1e11), Vec::new()).expect("far").notes;
+        assert!(notes[0].starts_with("far from the origin"), "{notes:?}");
+        let text = message(Scene::new("x", at(1e14), Vec::new()));
+        assert!(text.contains("move the scene to the origin"), "{text}");
     }
 
     #[test]

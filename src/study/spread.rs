@@ -12,6 +12,8 @@ use super::scores::{OBSERVED, Scored, Scoring};
 /// Fewest lines that may share a variance: the participation ratio (sum d^2)^2 / sum d^4. At 30 the standard error is
 /// known to about an eighth.
 const FEWEST: f64 = 30.0;
+/// Differences of this size relative to the values are rounding: the sums of scores are not exact.
+const ROUNDING: f64 = 1e-9;
 /// Most of a variance that may come from what the pilot has not seen.
 const MOST_UNSEEN: f64 = 0.25;
 
@@ -19,7 +21,7 @@ const MOST_UNSEEN: f64 = 0.25;
 pub struct Spread {
     covariance: Vec<[f64; OBSERVED]>,
     reliable: [bool; OBSERVED],
-    /// Whether no line of the pilot differs from another.
+    /// Whether no line of the pilot differs from another, but for rounding.
     constant: [bool; OBSERVED],
 }
 
@@ -40,8 +42,12 @@ impl Spread {
                 fourth[i] += d[i] * d[i] * d[i] * d[i];
             }
         }
-        let first = pilot.lines.first().copied().unwrap_or([0.0; OBSERVED]);
-        let constant = std::array::from_fn(|i| pilot.lines.iter().all(|row| row[i] == first[i]));
+        let constant = std::array::from_fn(|i| {
+            let values = || pilot.lines.iter().map(|row| row[i]);
+            let (lo, hi) =
+                values().fold((f64::MAX, f64::MIN), |(lo, hi), v| (lo.min(v), hi.max(v)));
+            hi - lo <= ROUNDING * hi.abs().max(lo.abs())
+        });
         let unseen = unseen(tree, prediction, scoring, pilot);
         let reliable = std::array::from_fn(|i| {
             let squares = covariance[i][i];

@@ -139,7 +139,7 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
     let slope_within = if common.quick { 0.02 } else { 0.005 };
     let lines = match overrides.lines {
         Some(n) => LineRule::exactly(n),
-        None if common.quick => LineRule::exactly(1 << 16),
+        None if common.quick => LineRule::for_error(slope_within, 1 << 16, 1 << 20),
         None => LineRule::for_error(slope_within, 1 << 18, 1 << 22),
     };
     let mut plan = Plan {
