@@ -4,7 +4,7 @@ use std::io::{self, IsTerminal, Write};
 use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use sahlab::study::cell::Watcher;
 
 /// Progress over all lines of a run. How many a cell takes is known only after its pilot, so the length is a guess that
@@ -24,14 +24,15 @@ impl Progress {
     /// Progress over some cells of about so many lines; silent if told so.
     pub fn new(cells: usize, expected: u64, quiet: bool) -> Self {
         let terminal = io::stderr().is_terminal();
-        let bar = if quiet || !terminal {
-            ProgressBar::hidden()
-        } else {
-            ProgressBar::new(cells as u64 * expected)
-        };
-        bar.set_length(cells as u64 * expected);
-        let style = "{bar:30.cyan/dim} {percent:>3} %  {elapsed} gone, {eta} left  {msg}";
-        bar.set_style(ProgressStyle::with_template(style).expect("a valid template"));
+        let style = "{bar:30.cyan/dim} {percent:>3} %  {elapsed} gone, {eta} left  {wide_msg}";
+        let style = ProgressStyle::with_template(style).expect("a valid template");
+        // Hidden until it has its style: the first frame would show another.
+        let target = ProgressDrawTarget::hidden();
+        let bar =
+            ProgressBar::with_draw_target(Some(cells as u64 * expected), target).with_style(style);
+        if !quiet && terminal {
+            bar.set_draw_target(ProgressDrawTarget::stderr());
+        }
         bar.enable_steady_tick(Duration::from_millis(200));
         Self {
             bar,
