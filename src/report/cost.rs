@@ -62,6 +62,15 @@ impl Pair {
         ]
     }
 
+    /// Two counts of the same lines together. Both grow with the same lines, so the errors may add up.
+    pub fn plus(self, other: Pair) -> Pair {
+        Pair {
+            predicted: self.predicted + other.predicted,
+            counted: self.counted + other.counted,
+            se: self.se.zip(other.se).map(|(a, b)| a + b),
+        }
+    }
+
     /// The tree cost C of a cell.
     pub fn cost(cell: &CellRecord) -> Pair {
         let [.., cost] = Pair::all(cell);

@@ -32,16 +32,11 @@ pub fn cells(cells: &[CellRecord]) -> Table {
         Column::right("lines", "lines"),
         Column::measured("slope − 1, %", "slope_minus_1_pct"),
     ];
-    for name in ["n_K", "n_B", "n_t", "C"] {
-        let key = name.to_lowercase();
-        columns.push(Column::right(
-            &format!("{name} predicted"),
-            &format!("{key}_predicted"),
-        ));
-        columns.push(Column::right(
-            &format!("{name} counted"),
-            &format!("{key}_counted"),
-        ));
+    for name in ["n_K", "n_B", "n_K + n_B", "n_t", "C"] {
+        let key = name.to_lowercase().replace(" + ", "_plus_");
+        let columns_of = ["predicted", "counted"]
+            .map(|what| Column::right(&format!("{name} {what}"), &format!("{key}_{what}")));
+        columns.extend(columns_of);
     }
     columns.extend([
         Column::measured("C difference, %", "c_difference_pct"),
@@ -49,7 +44,7 @@ pub fn cells(cells: &[CellRecord]) -> Table {
         Column::right("p tails", "p_tails"),
         Column::right("p contrasts", "p_contrasts"),
     ]);
-    let caption = "Slope of hits against N p; inner nodes (n_K), leaves (n_B) and object tests (n_t) per line; tree cost C. \
+    let caption = "Slope of hits against N p; inner nodes (n_K), leaves (n_B), all nodes (n_K + n_B) and object tests (n_t) per line; tree cost C. \
                    ± is half of the 99 % interval, left out where the pilot cannot tell it; p-values: slope is 1, \
                    smallest binomial tail, Hotelling over contrasts.";
     Table {
@@ -68,15 +63,14 @@ fn cell_row(cell: &CellRecord) -> Vec<Cell> {
         Cell::Count(cell.lines),
         estimate(cell.slope, cell.slope_se, 1.0, 100.0),
     ];
-    let pairs = Pair::all(cell);
-    for pair in pairs {
+    let [n_k, n_b, n_t, cost] = Pair::all(cell);
+    for pair in [n_k, n_b, n_k.plus(n_b), n_t, cost] {
         let decimals = pair.decimals();
         row.extend([
             Cell::Value(pair.predicted, decimals),
             Cell::Value(pair.counted, decimals),
         ]);
     }
-    let [.., cost] = pairs;
     row.push(cost.deviation().map_or(Cell::Missing, |deviation| {
         Cell::Estimate(deviation.percent, deviation.half)
     }));
