@@ -10,6 +10,7 @@ use rayon::prelude::*;
 use crate::geom::{Aabb, Line, Span};
 use crate::kd::traverse::traverse_line;
 use crate::kd::{Counts, NodeKind, Prediction, Probe, Stack, Tree, Work};
+use crate::stats::ScoreMoments;
 
 /// Contrasts for Hotelling's test: counts of visited nodes by size (8 classes of equal expected hits), by thinnest side
 /// (x, y), by position (upper half in x, y, z), and of leaves.
@@ -160,11 +161,14 @@ pub const FIRST_SCORE: usize = 3 + CONTRASTS;
 pub struct Scored {
     /// One row a line.
     pub lines: Vec<[f64; OBSERVED]>,
+    /// Means and covariances of the rows.
+    pub moments: ScoreMoments<OBSERVED>,
     /// Hits per node.
     pub counts: Counts,
 }
 
-/// Lines that one thread takes at a time; rows stand in the order of the lines, whatever the threads.
+/// Lines that one thread takes at a time; rows stand and moments are merged in the order of the lines, whatever the
+/// threads.
 const CHUNK: u64 = 4096;
 
 /// Score the first `lines` lines given by `make(start..end)`.
@@ -181,6 +185,7 @@ where
         let mut counts = Counts::new(tree);
         let mut stack = Stack::default();
         let mut rows = Vec::new();
+        let mut moments = ScoreMoments::default();
         for line in make(c * CHUNK..lines.min((c + 1) * CHUNK)) {
             let mut watch = LineScore {
                 scoring,
@@ -196,9 +201,10 @@ where
             row[..FIRST_CONTRAST].copy_from_slice(&work);
             row[FIRST_CONTRAST..FIRST_SCORE].copy_from_slice(&watch.contrasts.map(f64::from));
             row[FIRST_SCORE..].copy_from_slice(&watch.scores);
+            moments.push(row);
             rows.push(row);
         }
-        (rows, counts)
+        (rows, moments, counts)
     };
     let chunks: Vec<_> = (0..lines.div_ceil(CHUNK))
         .into_par_iter()
@@ -206,10 +212,12 @@ where
         .collect();
     let mut all = Scored {
         lines: Vec::new(),
+        moments: ScoreMoments::default(),
         counts: Counts::new(tree),
     };
-    for (rows, counts) in chunks {
+    for (rows, moments, counts) in chunks {
         all.lines.extend(rows);
+        all.moments.merge(&moments);
         all.counts = all.counts.merge(&counts);
     }
     all

@@ -17,9 +17,12 @@ const ROUNDING: f64 = 1e-9;
 /// Most of a variance that may come from what the pilot has not seen.
 const MOST_UNSEEN: f64 = 0.25;
 
+/// Covariances of everything observed of a line.
+type Matrix = [[f64; OBSERVED]; OBSERVED];
+
 /// Covariance of everything observed of a line.
 pub struct Spread {
-    covariance: Vec<[f64; OBSERVED]>,
+    covariance: Matrix,
     reliable: [bool; OBSERVED],
     /// Whether no line of the pilot differs from another, but for rounding.
     constant: [bool; OBSERVED],
@@ -29,17 +32,13 @@ impl Spread {
     /// The pilot's covariance with the variance of what it has not seen.
     pub fn new(tree: &Tree, prediction: &Prediction, scoring: &Scoring, pilot: &Scored) -> Self {
         let n = pilot.lines.len() as f64;
-        let mut mean = [0.0; OBSERVED];
-        for row in &pilot.lines {
-            (0..OBSERVED).for_each(|i| mean[i] += row[i] / n);
-        }
-        let mut covariance = vec![[0.0; OBSERVED]; OBSERVED];
+        let mean = pilot.moments.mean().expect("a pilot has lines");
+        let mut covariance = pilot.moments.covariance().expect("a pilot has two lines");
         let mut fourth = [0.0; OBSERVED];
         for row in &pilot.lines {
-            let d: [f64; OBSERVED] = std::array::from_fn(|i| row[i] - mean[i]);
-            for i in 0..OBSERVED {
-                (0..OBSERVED).for_each(|j| covariance[i][j] += d[i] * d[j]);
-                fourth[i] += d[i] * d[i] * d[i] * d[i];
+            for (sum, (value, mean)) in fourth.iter_mut().zip(row.iter().zip(mean)) {
+                let square = (value - mean) * (value - mean);
+                *sum += square * square;
             }
         }
         let constant = std::array::from_fn(|i| {
@@ -50,14 +49,13 @@ impl Spread {
         });
         let unseen = unseen(tree, prediction, scoring, pilot);
         let reliable = std::array::from_fn(|i| {
-            let squares = covariance[i][i];
+            let variance = covariance[i][i];
+            let squares = variance * (n - 1.0);
             let lines = squares * squares / fourth[i];
-            !constant[i] && lines >= FEWEST && unseen[i][i] <= MOST_UNSEEN * squares / (n - 1.0)
+            !constant[i] && lines >= FEWEST && unseen[i][i] <= MOST_UNSEEN * variance
         });
         for i in 0..OBSERVED {
-            for j in 0..OBSERVED {
-                covariance[i][j] = covariance[i][j] / (n - 1.0) + unseen[i][j];
-            }
+            (0..OBSERVED).for_each(|j| covariance[i][j] += unseen[i][j]);
         }
         Self {
             covariance,
@@ -108,15 +106,10 @@ impl Spread {
 ///
 /// A subtree K that no line hit adds p_K t t', with t what a line that hits K is expected to add there. Subtrees inside it
 /// are counted with it.
-fn unseen(
-    tree: &Tree,
-    prediction: &Prediction,
-    scoring: &Scoring,
-    pilot: &Scored,
-) -> Vec<[f64; OBSERVED]> {
+fn unseen(tree: &Tree, prediction: &Prediction, scoring: &Scoring, pilot: &Scored) -> Matrix {
     let n = pilot.counts.lines;
     let hits = &pilot.counts.hits;
-    let mut total = vec![[0.0; OBSERVED]; OBSERVED];
+    let mut total = [[0.0; OBSERVED]; OBSERVED];
     let mut inside = vec![false; tree.nodes.len()];
     for (i, node) in tree.nodes.iter().enumerate() {
         let p = prediction.p[i];
