@@ -6,6 +6,8 @@ use rand::Rng;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 
+use crate::scene::unit_interval;
+
 /// What random numbers are for: different purposes never share a number.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Purpose {
@@ -54,24 +56,9 @@ pub(super) fn uniform(rng: &mut impl Rng) -> f64 {
     unit_interval(rng.next_u64())
 }
 
-/// (k + 1/2) / 2^52 for the upper 52 bits k of a word: exact, so never 0 and never 1. (With 53 bits, k + 1/2 would be
-/// rounded, the largest to 2^53.)
-#[inline]
-fn unit_interval(bits: u64) -> f64 {
-    ((bits >> 12) as f64 + 0.5) * (1.0 / (1_u64 << 52) as f64)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn neither_end_ever_comes() {
-        assert_eq!(unit_interval(0), 0.5_f64.powi(53));
-        assert_eq!(unit_interval(u64::MAX), 1.0 - 0.5_f64.powi(53));
-        assert!(unit_interval(u64::MAX) < 1.0);
-        assert!(unit_interval(1 << 12) > unit_interval(0));
-    }
 
     #[test]
     fn an_index_has_its_own_place() {

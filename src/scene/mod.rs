@@ -22,6 +22,7 @@ pub use catalogue::catalogue;
 use catalogue::{Recipe, generate, unknown};
 pub use error::SceneError;
 use random::Random;
+pub(crate) use random::unit_interval;
 
 /// The file name extensions that can be read.
 pub const EXTENSIONS: [&str; 3] = ["obj", "ply", "off"];

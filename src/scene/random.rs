@@ -10,9 +10,11 @@ use rand_distr::{Distribution, UnitSphere};
 
 use crate::geom::{Polygon, Triangle};
 
-/// (k + 1/2) / 2^52 for the upper 52 bits k of a word: exact, so never 0 and never 1.
-fn unit_interval(bits: u64) -> f64 {
-    ((bits >> 12) as f64 + 0.5) / (1_u64 << 52) as f64
+/// (k + 1/2) / 2^52 for the upper 52 bits k of a word: exact, so never 0 and never 1. (With 53 bits, k + 1/2 would be
+/// rounded, the largest to 2^53.) The uniforms of lines are made by it too.
+#[inline]
+pub(crate) fn unit_interval(bits: u64) -> f64 {
+    ((bits >> 12) as f64 + 0.5) * (1.0 / (1_u64 << 52) as f64)
 }
 
 /// A stream of random numbers and shapes.
@@ -107,6 +109,8 @@ mod tests {
     fn neither_end_ever_comes() {
         assert_eq!(unit_interval(0), 0.5_f64.powi(53));
         assert_eq!(unit_interval(u64::MAX), 1.0 - 0.5_f64.powi(53));
+        assert!(unit_interval(u64::MAX) < 1.0);
+        assert!(unit_interval(1 << 12) > unit_interval(0));
     }
 
     #[test]

@@ -140,7 +140,7 @@ fn mahalanobis(mut d: Vec<f64>, mut c: Vec<Vec<f64>>) -> (f64, usize) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{IntegerCovariance, ScoreMoments, student_p};
+    use super::super::{ScoreMoments, student_p};
     use super::*;
 
     fn assert_close(a: f64, b: f64) {
@@ -259,16 +259,22 @@ mod tests {
             scores.push(test.p);
 
             let expected = [0.5, 0.375, 0.25, 0.5, 0.875];
-            let mut sample = IntegerCovariance::new(5);
+            let mut sample = ScoreMoments::<5>::default();
             for _ in 0..256 {
                 // Nested boxes on a line, so that hits are correlated, and one box apart.
                 let (u, v) = (generator.uniform(), generator.uniform());
-                let hits = [u < 0.5, u < 0.375, (0.25..0.5).contains(&u), v < 0.5].map(u32::from);
-                sample.push(&[hits[0], hits[1], hits[2], hits[3], hits[0] + hits[1]]);
+                let hits = [u < 0.5, u < 0.375, (0.25..0.5).contains(&u), v < 0.5]
+                    .map(|hit| f64::from(u8::from(hit)));
+                sample.push([hits[0], hits[1], hits[2], hits[3], hits[0] + hits[1]]);
             }
             let mean = sample.mean().unwrap();
             let deviation: Vec<f64> = mean.iter().zip(expected).map(|(m, e)| m - e).collect();
-            let test = hotelling(&deviation, &sample.covariance().unwrap(), 256, 256);
+            let test = hotelling(
+                &deviation,
+                sample.covariance().unwrap().as_flattened(),
+                256,
+                256,
+            );
             assert_eq!(test.contrasts, 4);
             counts.push(test.p);
         }

@@ -1,6 +1,6 @@
 //! The statistics behind every verdict of the study.
 //!
-//! The idea: sums are gathered exactly ([`IntegerMoments`], [`IntegerCovariance`]) or nearly so ([`ScoreMoments`]),
+//! The idea: sums are gathered to 32 digits ([`ScoreMoments`]),
 //! lines are fitted to the accuracy of the data ([`least_squares`]), and each claim ends in one p-value
 //! ([`normal_p`], [`student_p`], [`binomial_tail`], [`hotelling()`]) that [`holm()`] corrects for its companions.
 //!
@@ -19,7 +19,7 @@ pub mod tails;
 
 pub use binomial::binomial_tail;
 pub use hotelling::{Hotelling, hotelling};
-pub use moments::{IntegerCovariance, IntegerMoments, ScoreMoments};
+pub use moments::ScoreMoments;
 pub use multiple::holm;
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
 pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};

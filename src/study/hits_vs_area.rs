@@ -8,7 +8,7 @@ use crate::stats::{normal_quantile, simultaneous_quantile};
 
 use super::cell::CellPlan;
 use super::records::{CellRecord, Estimate, SamplerRecord, Summary};
-use super::{Plan, verdicts};
+use super::{Plan, digest, verdicts};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 1;
@@ -20,8 +20,8 @@ const LEVEL: f64 = 0.99;
 pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     let mut cells = Vec::new();
     for scene in scenes {
-        let content = hex(&content_hash(scene));
-        let line_seed = line_seed(plan.seed, scene);
+        let content = content(scene);
+        let line_seed = line_seed(plan.seed, &content);
         for &strategy in &plan.strategies {
             let rules = Rules {
                 strategy,
@@ -34,7 +34,7 @@ pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
             );
             let drawn = scene.name == plan.figure.scene && strategy == plan.figure.strategy;
             cells.push(CellPlan {
-                id: hex(&Sha256::digest(identity)[..8]),
+                id: digest(identity.as_bytes()),
                 scene,
                 rules,
                 seed: plan.seed,
@@ -47,27 +47,20 @@ pub fn cells<'a>(plan: &Plan, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     cells
 }
 
-/// Seed of a scene's lines: the run's and the scene's.
-pub fn line_seed(seed: u64, scene: &Scene) -> u64 {
-    let content = hex(&content_hash(scene));
+/// Seed of a scene's lines: the run's and the scene's content.
+pub fn line_seed(seed: u64, content: &str) -> u64 {
     let hash = Sha256::digest(format!("lines of {content}, seed {seed}"));
     u64::from_le_bytes(std::array::from_fn(|i| hash[i]))
 }
 
 /// A scene's content: the boxes are all that a tree and its counts depend on.
-fn content_hash(scene: &Scene) -> [u8; 8] {
-    let mut hash = Sha256::new();
-    for b in &scene.bounds {
-        for value in b.lo.to_array().into_iter().chain(b.hi.to_array()) {
-            hash.update(value.to_le_bytes());
-        }
-    }
-    let hash = hash.finalize();
-    std::array::from_fn(|i| hash[i])
-}
-
-fn hex(bytes: &[u8]) -> String {
-    bytes.iter().map(|b| format!("{b:02x}")).collect()
+pub fn content(scene: &Scene) -> String {
+    let numbers = scene
+        .bounds
+        .iter()
+        .flat_map(|b| [b.lo.to_array(), b.hi.to_array()].concat());
+    let bytes: Vec<u8> = numbers.flat_map(f64::to_le_bytes).collect();
+    digest(&bytes)
 }
 
 /// The run's answer: estimates with intervals, and whether the expectations held.

@@ -19,7 +19,7 @@ pub struct Plan {
     pub command: String,
     /// The question, in one sentence.
     pub question: String,
-    /// Seed of the lines.
+    /// Seed of the run; each scene's lines have their own from it.
     pub seed: u64,
     /// Scenes, as on the command line.
     pub scenes: Vec<String>,

@@ -222,6 +222,19 @@ pub struct SamplerRecord {
     pub triangles_p: Option<f64>,
 }
 
+impl SamplerRecord {
+    /// The five p-values, in the order of the columns.
+    pub fn p_values(&self) -> [Option<f64>; 5] {
+        [
+            self.boxes_p,
+            self.mean_chord_p,
+            self.fourth_chord_p,
+            self.directions_p,
+            self.triangles_p,
+        ]
+    }
+}
+
 /// `summary.json`: the answer of a run, without times.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Summary {

@@ -12,7 +12,7 @@ use crate::scene::Scene;
 use crate::stats::holm;
 
 use super::cell::Watcher;
-use super::hits_vs_area::line_seed;
+use super::hits_vs_area::{content, line_seed};
 use super::plan::{Controls, Plan};
 use super::records::{SamplerRecord, Verdict};
 
@@ -29,7 +29,7 @@ const SIDES: DVec3 = DVec3::new(1.0, 0.8, 0.5);
 pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
     let check = |scene: &Scene| {
         let n = plan.lines.at_least().min(CHECKED);
-        let (world, seed) = (scene.world, line_seed(plan.seed, scene));
+        let (world, seed) = (scene.world, line_seed(plan.seed, &content(scene)));
         let lines: Vec<Line> = SurfaceLines { world, seed }.range(0..n).collect();
         let checks = check_sampler(&world, seed, n, |i| (lines[i as usize], Span::FULL));
         record(OWN, true, &scene.name, n, checks)
@@ -71,16 +71,6 @@ fn record(law: &str, exact: bool, scene: &str, lines: u64, p: SamplerChecks) -> 
     }
 }
 
-fn p_values(r: &SamplerRecord) -> [Option<f64>; 5] {
-    [
-        r.boxes_p,
-        r.mean_chord_p,
-        r.fourth_chord_p,
-        r.directions_p,
-        r.triangles_p,
-    ]
-}
-
 /// Whether the run's lines passed, and whether the checks told right laws from wrong ones.
 pub fn verdicts(plan: &Plan, records: &[SamplerRecord]) -> Vec<Verdict> {
     let (own, laws): (Vec<&SamplerRecord>, _) = records.iter().partition(|r| r.law == OWN);
@@ -97,7 +87,7 @@ fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
         let scene = r.scene.clone();
         names
             .into_iter()
-            .zip(p_values(r))
+            .zip(r.p_values())
             .filter_map(move |(name, p)| Some((p?, name, scene.clone())))
     };
     let checks: Vec<(f64, &str, String)> = records.iter().flat_map(named).collect();
@@ -126,7 +116,7 @@ fn law_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
         rejected_below,
         accepted_above,
     } = plan.controls?;
-    let least = |r: &SamplerRecord| p_values(r).into_iter().flatten().fold(1.0, f64::min);
+    let least = |r: &SamplerRecord| r.p_values().into_iter().flatten().fold(1.0, f64::min);
     let passes = |r: &SamplerRecord| {
         if r.exact {
             least(r) > accepted_above

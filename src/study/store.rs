@@ -9,12 +9,12 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
-use sha2::{Digest, Sha256};
 use thiserror::Error;
 
 use crate::files::write_atomic;
 
 use super::cell::CellResult;
+use super::digest;
 use super::records::{SamplerRecord, Summary, TimingRecord};
 
 /// A folder cannot be written.
@@ -118,7 +118,8 @@ impl Store {
         self.write(self.cell_path(id, ".json"), &json)
     }
 
-    /// Put the run's files together. `timings.csv` stays as [`save`](Self::save) has left it.
+    /// Put the run's files together. `timings.csv` stays as [`save`](Self::save) has left it, the description as
+    /// [`prepare`](Self::prepare).
     pub fn write_run(
         &self,
         results: &[CellResult],
@@ -139,7 +140,6 @@ impl Store {
         if !timings.exists() {
             self.write(timings, TIMINGS_HEADER)?;
         }
-        self.prepare()?;
         self.write(self.folder.join("samplers.csv"), &csv_bytes(samplers))?;
         let mut json = serde_json::to_vec_pretty(summary).expect("records are plain data");
         json.push(b'\n');
@@ -153,12 +153,6 @@ impl Store {
 
 /// `timings.csv` without a row.
 const TIMINGS_HEADER: &[u8] = b"cell,scene,strategy,build_s,count_s,threads,visits\n";
-
-/// The first 16 hexadecimal digits of the SHA-256.
-fn digest(bytes: &[u8]) -> String {
-    let hash = Sha256::digest(bytes);
-    hash.iter().take(8).map(|b| format!("{b:02x}")).collect()
-}
 
 fn csv_bytes<T: Serialize>(rows: &[T]) -> Vec<u8> {
     let mut writer = csv::Writer::from_writer(Vec::new());

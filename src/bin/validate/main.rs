@@ -59,11 +59,9 @@ fn execute(cli: &Cli) -> Result<bool> {
     match &cli.command {
         None => {
             let (name, text) = EXPERIMENTS[0];
-            let plan = Plan::parse(text, &format!("experiments/{name}.toml"), name, overrides)?;
-            run_plans(
-                vec![(format!("experiments/{name}.toml").into(), plan)],
-                common,
-            )
+            let path = format!("experiments/{name}.toml");
+            let plan = Plan::parse(text, &path, name, overrides)?;
+            run_plans(vec![(path.into(), plan)], common)
         }
         Some(Command::Run { experiments }) => {
             let plans = experiments
@@ -222,7 +220,7 @@ fn list(what: Option<Listed>) -> String {
     text
 }
 
-fn paths(files: &[std::path::PathBuf]) -> String {
+fn paths(files: &[PathBuf]) -> String {
     files.iter().map(|f| format!("{}\n", f.display())).collect()
 }
 

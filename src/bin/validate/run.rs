@@ -120,9 +120,10 @@ fn measure_cells(
     let finished: Vec<Option<CellResult>> = planned
         .iter()
         .map(|cell| {
-            store
-                .finished(&cell.id, cell.nodes)
-                .filter(|_| !common.force)
+            if common.force {
+                return None;
+            }
+            store.finished(&cell.id, cell.nodes)
         })
         .collect();
     let found = finished.iter().flatten().count();

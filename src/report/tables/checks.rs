@@ -67,14 +67,7 @@ pub fn samplers(records: &[SamplerRecord]) -> Table {
             Cell::Text(if r.exact { "yes" } else { "no" }.to_owned()),
             Cell::Text(r.scene.clone()),
         ];
-        let p = [
-            r.boxes_p,
-            r.mean_chord_p,
-            r.fourth_chord_p,
-            r.directions_p,
-            r.triangles_p,
-        ];
-        row.extend(p.map(p_value));
+        row.extend(r.p_values().map(p_value));
         row
     };
     Table {
