@@ -1,6 +1,7 @@
 //! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64.
 
 mod aabb;
+mod cone;
 mod line;
 mod objects;
 mod polygon;
@@ -8,6 +9,7 @@ mod sphere;
 mod triangle;
 
 pub use aabb::Aabb;
+pub use cone::Cone;
 pub use line::{Line, PADDING, Ray, Span};
 pub use objects::Objects;
 pub use polygon::Polygon;

@@ -69,6 +69,11 @@ impl Polygon {
         0.5 * self.normal.length() * self.scale * self.scale
     }
 
+    /// Normal, to the side from which the corners go round counter-clockwise; not of unit length.
+    pub fn normal(&self) -> DVec3 {
+        self.normal
+    }
+
     /// Parameter of the hit in the ray's range, or `None`.
     ///
     /// Inside is decided by the edge functions of the triangle test, so polygons and triangles that share an edge leave

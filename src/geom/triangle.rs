@@ -16,8 +16,13 @@ impl Triangle {
 
     /// Area.
     pub fn area(&self) -> f64 {
+        0.5 * self.normal().length()
+    }
+
+    /// Normal, to the side from which the corners go round counter-clockwise; not of unit length.
+    pub fn normal(&self) -> DVec3 {
         let [a, b, c] = self.0;
-        0.5 * (b - a).cross(c - a).length()
+        (b - a).cross(c - a)
     }
 
     /// Parameter of the hit in the ray's range, or `None`.

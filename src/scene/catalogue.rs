@@ -1,5 +1,6 @@
 //! The procedural scenes by name: which there are, how to make them, and what to say when there is none of that name.
 
+use super::draft::Draft;
 use super::random::Random;
 use super::{EXTENSIONS, Scene, SceneError, simple, spd};
 use crate::geom::Objects;
@@ -16,8 +17,16 @@ pub(super) struct Recipe {
     pub(super) size: usize,
     /// Smallest and largest size.
     pub(super) sizes: [usize; 2],
-    /// Makes the objects of a size, with random numbers seeded by name and size.
-    pub(super) make: fn(usize, Random) -> Objects,
+    /// Makes the scene of a size.
+    pub(super) make: Make,
+}
+
+/// How a procedural scene is made.
+pub(super) enum Make {
+    /// Objects alone, with random numbers seeded by name and size.
+    Objects(fn(usize, Random) -> Objects),
+    /// Objects with their look.
+    Staged(fn(usize) -> Draft),
 }
 
 /// The procedural scenes: what one types, and a line on what it is.
@@ -70,8 +79,11 @@ pub(super) fn generate(spec: &str, group: &str, rest: &str) -> Result<Scene, Sce
         return Err(wrong_size(format!("the size {size} is too large")));
     }
     let name = format!("{}:{size}", recipe.spec());
-    let objects = (recipe.make)(size, Random::named(&name));
-    Scene::new(name, objects, Vec::new())
+    let draft = match recipe.make {
+        Make::Objects(make) => make(size, Random::named(&name)).into(),
+        Make::Staged(make) => make(size),
+    };
+    Scene::from_draft(name, draft, Vec::new())
 }
 
 /// The error for a scene that does not exist, with the nearest name that does and all the others.

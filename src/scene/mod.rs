@@ -5,7 +5,9 @@
 //! on every machine: only + - * / and square roots, `libm`, and random numbers from a fixed seed are used.
 
 mod catalogue;
+mod draft;
 mod error;
+pub mod look;
 mod mesh;
 mod obj;
 mod off;
@@ -19,8 +21,10 @@ use std::ops::RangeInclusive;
 use crate::geom::{Aabb, Objects, Polygon, Triangle};
 
 pub use catalogue::catalogue;
-use catalogue::{Recipe, generate, unknown};
+use catalogue::{Make, Recipe, generate, unknown};
+use draft::Draft;
 pub use error::SceneError;
+pub use look::Look;
 use random::Random;
 pub(crate) use random::unit_interval;
 
@@ -44,6 +48,8 @@ pub struct Scene {
     pub bounds: Vec<Aabb>,
     /// The smallest box around all objects: the root of every tree. Its surface area is one of [`AREAS`].
     pub world: Aabb,
+    /// Camera, lights and materials, if the scene has them.
+    pub look: Option<Look>,
     /// What a user should know of how it was read, e.g. degenerate triangles that can never be hit.
     pub notes: Vec<String>,
 }
@@ -94,7 +100,21 @@ impl Scene {
             objects,
             bounds,
             world,
+            look: None,
             notes,
+        })
+    }
+
+    /// A scene of objects and, if they have one, their look.
+    fn from_draft(
+        name: impl Into<String>,
+        draft: Draft,
+        notes: Vec<String>,
+    ) -> Result<Self, SceneError> {
+        let (objects, look) = draft.into_parts();
+        Ok(Self {
+            look,
+            ..Self::new(name, objects, notes)?
         })
     }
 
@@ -114,6 +134,7 @@ impl Scene {
         let kinds = [
             (o.triangles.len(), "triangle"),
             (o.spheres.len(), "sphere"),
+            (o.cones.len(), "cone"),
             (o.polygons.len(), "polygon"),
         ];
         let present: Vec<_> = kinds
@@ -155,6 +176,14 @@ fn check(name: &str, objects: &Objects) -> Result<(), SceneError> {
         .spheres
         .iter()
         .position(|s| !(s.radius > 0.0 && s.radius.is_finite()));
+    let bad_end = objects
+        .cones
+        .iter()
+        .position(|c| !(c.base.is_finite() && c.apex.is_finite() && c.base != c.apex));
+    let bad_width = objects.cones.iter().position(|c| {
+        let radii = [c.base_radius, c.apex_radius];
+        !radii.iter().all(|&r| r >= 0.0 && r.is_finite()) || radii == [0.0; 2]
+    });
     let bad_polygon = objects
         .polygons
         .iter()
@@ -167,10 +196,20 @@ fn check(name: &str, objects: &Objects) -> Result<(), SceneError> {
         "has a radius that is not a positive number",
         "every radius must be finite and above zero",
     );
+    let ends = (
+        "has ends that coincide or are not finite",
+        "the two ends must be finite and differ",
+    );
+    let radii = (
+        "has radii that are negative, not finite, or both zero",
+        "both radii must be finite, none negative, and one above zero",
+    );
     let found = [
         (bad_triangle, "triangle", coordinate),
         (bad_centre, "sphere", coordinate),
         (bad_radius, "sphere", radius),
+        (bad_end, "cone", ends),
+        (bad_width, "cone", radii),
         (bad_polygon, "polygon", coordinate),
     ];
     for (number, kind, (wrong, right)) in found {

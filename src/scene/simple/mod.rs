@@ -9,7 +9,7 @@ mod greedy;
 
 use glam::DVec3;
 
-use super::{MAX_OBJECTS, Random, Recipe};
+use super::{MAX_OBJECTS, Make, Random, Recipe};
 use crate::geom::{Objects, Sphere};
 
 /// The simple scenes.
@@ -73,7 +73,7 @@ const fn recipe(
         about,
         size,
         sizes: [1, MAX_OBJECTS],
-        make,
+        make: Make::Objects(make),
     }
 }
 

@@ -7,7 +7,7 @@
 mod balls;
 mod tetra;
 
-use super::Recipe;
+use super::{Make, Recipe};
 
 /// The SPD scenes. The largest sizes are the last with fewer than 2^27 objects.
 pub(super) const RECIPES: [Recipe; 2] = [
@@ -17,7 +17,7 @@ pub(super) const RECIPES: [Recipe; 2] = [
         about: "sphereflake of (9^(SIZE+1) - 1)/8 spheres on a floor polygon",
         size: 4,
         sizes: [1, 8],
-        make: |size, _| balls::objects(size),
+        make: Make::Objects(|size, _| balls::objects(size)),
     },
     Recipe {
         group: "spd",
@@ -25,6 +25,6 @@ pub(super) const RECIPES: [Recipe; 2] = [
         about: "recursive tetrahedron of 4^SIZE triangles",
         size: 6,
         sizes: [1, 13],
-        make: |size, _| tetra::objects(size),
+        make: Make::Objects(|size, _| tetra::objects(size)),
     },
 ];
