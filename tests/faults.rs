@@ -11,7 +11,7 @@ use sahlab::rays::Uniforms;
 use sahlab::scene::Scene;
 use sahlab::stats::holm;
 use sahlab::study::LineRule;
-use sahlab::study::cell::{CellPlan, compare, measure};
+use sahlab::study::hits::cell::{CellPlan, compare, measure};
 use sahlab::study::records::CellRecord;
 
 /// Level of the gate.

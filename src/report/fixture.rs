@@ -4,7 +4,7 @@ use statrs::distribution::Binomial;
 
 use super::figure3::quantile;
 
-use super::Run;
+use super::{Content, Hits, Run};
 use crate::study::records::{CellRecord, NodeRecord, Summary};
 
 pub const LINES: u64 = 1 << 20;
@@ -115,19 +115,19 @@ pub fn nodes(cell: &CellRecord, count: u64, least: f64) -> Vec<NodeRecord> {
 /// A summary whose figure shows the cell of `scene` and `sah`.
 pub fn summary(scene: &str) -> Summary {
     Summary {
-        schema: 1,
+        schema: crate::study::SCHEMA,
         experiment: "test".to_owned(),
         kind: "hits-vs-area".to_owned(),
         question: "a question".to_owned(),
         seed: 7,
         command: "validate run test.toml".to_owned(),
-        stop: "objects:2:16".to_owned(),
+        stop: Some("objects:2:16".to_owned()),
         interval_level: 0.99,
-        family_level: 0.99,
+        family_level: Some(0.99),
         quick: false,
-        slope_within: 0.002,
-        figure_scene: scene.to_owned(),
-        figure_strategy: "sah".to_owned(),
+        slope_within: Some(0.002),
+        figure_scene: Some(scene.to_owned()),
+        figure_strategy: Some("sah".to_owned()),
         verdicts: Vec::new(),
         estimates: Vec::new(),
     }
@@ -138,10 +138,12 @@ pub fn run(cells: Vec<CellRecord>) -> Run {
     Run {
         dir: "data/test".into(),
         summary: summary(&cells[0].scene),
-        cells,
-        nodes: None,
-        bins: None,
-        samplers: None,
-        timings: None,
+        content: Content::Hits(Hits {
+            cells,
+            nodes: None,
+            bins: None,
+            samplers: None,
+            timings: None,
+        }),
     }
 }

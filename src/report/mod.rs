@@ -12,6 +12,7 @@ mod figure3;
 #[cfg(test)]
 mod fixture;
 mod glyphs;
+mod hits;
 mod legend;
 mod number;
 mod palette;
@@ -34,7 +35,8 @@ use std::path::{Path, PathBuf};
 use crate::files::write_atomic;
 
 pub use figure::Figure;
-pub use read::{Run, read_run};
+pub use hits::Hits;
+pub use read::{Content, Run, read_run};
 pub use table::{Align, Cell, Column, Table};
 
 /// Resolution of the PNG files, in dots per inch.
@@ -100,25 +102,10 @@ pub enum ReportError {
 }
 
 /// Draws every figure of a run into `out`, as SVG and PNG; gives the files in the order written.
-///
-/// `figure3` needs the nodes of the summary's figure cell and is left out where the run kept no nodes; `slopes` is left
-/// out where no cell has a slope.
 pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    let (cells, quick) = (&run.cells, run.summary.quick);
-    let mut figures = Vec::new();
-    if let Some(nodes) = &run.nodes {
-        let cell = run.figure_cell()?;
-        let nodes: Vec<_> = nodes
-            .iter()
-            .filter(|node| node.cell == cell.cell)
-            .cloned()
-            .collect();
-        figures.push(("figure3", figure3::figure(cell, &nodes, quick)?));
-    }
-    if let Some(figure) = slopes::figure(cells, run.summary.slope_within, quick) {
-        figures.push(("slopes", figure));
-    }
-    figures.push(("predicted-vs-measured", cost::figure(cells, quick)?));
+    let figures = match &run.content {
+        Content::Hits(hits) => hits.figures(&run.summary)?,
+    };
     let mut files = Vec::new();
     for (name, figure) in figures {
         let path = out.join(format!("{name}.svg"));
@@ -148,17 +135,9 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
             path: out.to_owned(),
         });
     }
-    let mut tables = vec![
-        ("cells", tables::cells(&run.cells)),
-        ("costs", tables::costs(&run.cells)),
-        ("fits", tables::fits(&run.cells)),
-        ("strategies", tables::strategies(&run.cells)),
-        ("trees", tables::trees(&run.cells)),
-        ("verdicts", tables::verdicts(&run.summary)),
-    ];
-    if let Some(samplers) = &run.samplers {
-        tables.push(("samplers", tables::samplers(samplers)));
-    }
+    let tables = match &run.content {
+        Content::Hits(hits) => hits.tables(&run.summary),
+    };
     let command = &run.summary.command;
     let mut files = Vec::new();
     for (name, table) in tables {

@@ -7,9 +7,8 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use super::ReportError;
-use crate::study::records::{
-    BinRecord, CellRecord, NodeRecord, SamplerRecord, Summary, TimingRecord,
-};
+use super::hits::Hits;
+use crate::study::records::Summary;
 
 /// What a finished run left behind.
 #[derive(Clone, Debug)]
@@ -18,60 +17,59 @@ pub struct Run {
     pub dir: PathBuf,
     /// `summary.json`.
     pub summary: Summary,
-    /// `cells.csv`.
-    pub cells: Vec<CellRecord>,
-    /// `nodes.csv`, where the run kept nodes.
-    pub nodes: Option<Vec<NodeRecord>>,
-    /// `bins.csv`, where the run kept bins.
-    pub bins: Option<Vec<BinRecord>>,
-    /// `samplers.csv`, where there is one.
-    pub samplers: Option<Vec<SamplerRecord>>,
-    /// `timings.csv`, where there is one.
-    pub timings: Option<Vec<TimingRecord>>,
+    /// The other files.
+    pub content: Content,
+}
+
+/// The files of a run, by its kind.
+#[derive(Clone, Debug)]
+pub enum Content {
+    /// Kind `hits-vs-area`.
+    Hits(Hits),
 }
 
 impl Run {
-    /// The cell whose nodes the main figure shows.
-    pub fn figure_cell(&self) -> Result<&CellRecord, ReportError> {
-        let (scene, strategy) = (&self.summary.figure_scene, &self.summary.figure_strategy);
-        let cell = self
-            .cells
-            .iter()
-            .find(|cell| cell.scene == *scene && cell.strategy == *strategy);
-        cell.ok_or_else(|| ReportError::Empty {
-            what: format!(
-                "{}: no cell of scene {scene} with strategy {strategy}",
-                self.dir.join("cells.csv").display()
-            ),
-        })
+    /// The files of a run of kind `hits-vs-area`.
+    pub fn hits(&self) -> Option<&Hits> {
+        match &self.content {
+            Content::Hits(hits) => Some(hits),
+        }
     }
 }
 
-/// Reads `summary.json`, `cells.csv` and, where there are any, `nodes.csv` and `bins.csv` of a directory.
+/// Reads `summary.json` and the files that a run of its kind has.
 pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
     let path = dir.join("summary.json");
     let file = open(&path)?;
-    let summary =
+    let summary: Summary =
         serde_json::from_reader(io::BufReader::new(file)).map_err(|source| ReportError::Json {
             path: path.clone(),
             source,
         })?;
-    let path = dir.join("cells.csv");
-    let cells = rows(&path, open(&path)?)?;
-    if cells.is_empty() {
-        return Err(ReportError::Empty {
-            what: format!("{}: no cells", path.display()),
-        });
-    }
+    let content = match summary.kind.as_str() {
+        "hits-vs-area" => Content::Hits(Hits::read(dir)?),
+        other => {
+            return Err(ReportError::Empty {
+                what: format!("{}: unknown kind of run '{other}'", path.display()),
+            });
+        }
+    };
     Ok(Run {
         dir: dir.to_owned(),
         summary,
-        cells,
-        nodes: optional_rows(&dir.join("nodes.csv"))?,
-        bins: optional_rows(&dir.join("bins.csv"))?,
-        samplers: optional_rows(&dir.join("samplers.csv"))?,
-        timings: optional_rows(&dir.join("timings.csv"))?,
+        content,
     })
+}
+
+/// The rows of a file that must have some.
+pub(super) fn rows_of<T: DeserializeOwned>(path: &Path) -> Result<Vec<T>, ReportError> {
+    let rows = rows(path, open(path)?)?;
+    if rows.is_empty() {
+        return Err(ReportError::Empty {
+            what: format!("{}: no rows", path.display()),
+        });
+    }
+    Ok(rows)
 }
 
 fn open(path: &Path) -> Result<File, ReportError> {
@@ -81,7 +79,9 @@ fn open(path: &Path) -> Result<File, ReportError> {
     })
 }
 
-fn optional_rows<T: DeserializeOwned>(path: &Path) -> Result<Option<Vec<T>>, ReportError> {
+pub(super) fn optional_rows<T: DeserializeOwned>(
+    path: &Path,
+) -> Result<Option<Vec<T>>, ReportError> {
     match File::open(path) {
         Ok(file) => rows(path, file).map(Some),
         Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),

@@ -4,49 +4,58 @@ use std::fmt::Write;
 
 use super::number::{counted, grouped, significant};
 use super::table::fold;
-use super::{Run, tables};
+use super::{Content, Hits, Run, tables};
 use crate::study::records::{CellRecord, TimingRecord};
 
 /// Columns of the screen.
 const WIDTH: usize = 100;
 
-/// The summary of a study: its question, the cost of every strategy, the verdicts.
+/// The summary of a study: its question, its main figures, the verdicts.
 pub fn study(run: &Run) -> String {
-    let lines: u64 = run.cells.iter().map(|c| c.lines).sum();
+    match &run.content {
+        Content::Hits(hits) => hits_study(run, hits),
+    }
+}
+
+fn hits_study(run: &Run, hits: &Hits) -> String {
+    let lines: u64 = hits.cells.iter().map(|c| c.lines).sum();
     let mut text = format!("\n{}\n", run.summary.question);
-    let first = &run.cells[0];
+    let first = &hits.cells[0];
     let _ = writeln!(
         text,
         "{} cells, stop {}, costs {}:{}:{}, seed {}, {} lines in all\n",
-        run.cells.len(),
-        run.summary.stop,
+        hits.cells.len(),
+        first.stop,
         first.c_k,
         first.c_b,
         first.c_t,
         run.summary.seed,
         grouped(lines)
     );
-    let costs = tables::costs(&run.cells);
+    let costs = tables::costs(&hits.cells);
     let table = if costs.fits(WIDTH) {
         costs
     } else {
-        tables::extremes(&run.cells)
+        tables::extremes(&hits.cells)
     };
-    text + &table.to_text(WIDTH) + &verdicts(run)
+    text + &table.to_text(WIDTH) + &verdicts(run) + nothing_to_fit(hits)
 }
 
 /// The summary of one scene: its trees, their costs, and which to take.
 pub fn scene(run: &Run) -> String {
-    let first = &run.cells[0];
+    let Some(hits) = run.hits() else {
+        return study(run);
+    };
+    let first = &hits.cells[0];
     let mut text = format!(
         "\n{}: {}, stop {}\n\n",
         first.scene,
         counted(first.objects, "object"),
-        run.summary.stop
+        first.stop
     );
-    text += &tables::of_scene(&run.cells).to_text(WIDTH);
-    text += &advice(&run.cells);
-    text + &verdicts(run)
+    text += &tables::of_scene(&hits.cells).to_text(WIDTH);
+    text += &advice(&hits.cells);
+    text + &verdicts(run) + nothing_to_fit(hits)
 }
 
 /// The strategy to take: the least cost counted, and how far the others are.
@@ -112,9 +121,6 @@ const LEAST_GAIN: f64 = 0.005;
 fn verdicts(run: &Run) -> String {
     const MARGIN: usize = 22;
     let mut text = String::from("\n");
-    if run.cells.iter().all(|cell| cell.slope.is_none()) {
-        text += "no tree has a node besides its root: nothing to fit\n";
-    }
     for v in &run.summary.verdicts {
         let mark = if v.held { "held" } else { "MISSED" };
         let message = fold(&v.message, WIDTH - MARGIN).replace('\n', &format!("\n{:MARGIN$}", ""));
@@ -126,10 +132,22 @@ fn verdicts(run: &Run) -> String {
     text
 }
 
+/// What is said where no tree has a node besides its root.
+fn nothing_to_fit(hits: &Hits) -> &'static str {
+    if hits.cells.iter().all(|cell| cell.slope.is_none()) {
+        "no tree has a node besides its root: nothing to fit\n"
+    } else {
+        ""
+    }
+}
+
 /// How fast the cells of the run went, from `timings.csv`; empty where it has no times of them.
 pub fn speed(run: &Run) -> String {
-    let of_run = |timing: &&TimingRecord| run.cells.iter().any(|cell| cell.cell == timing.cell);
-    let timings: Vec<&TimingRecord> = run.timings.iter().flatten().filter(of_run).collect();
+    let Some(hits) = run.hits() else {
+        return String::new();
+    };
+    let of_run = |timing: &&TimingRecord| hits.cells.iter().any(|cell| cell.cell == timing.cell);
+    let timings: Vec<&TimingRecord> = hits.timings.iter().flatten().filter(of_run).collect();
     let Some(first) = timings.first() else {
         return String::new();
     };
@@ -191,6 +209,11 @@ mod tests {
         }
     }
 
+    fn hits(run: &mut Run) -> &mut Hits {
+        let Content::Hits(hits) = &mut run.content;
+        hits
+    }
+
     #[test]
     fn only_times_of_the_runs_cells_count() {
         let time = |cell: &str| TimingRecord {
@@ -204,12 +227,12 @@ mod tests {
         };
         let mut run = fixture::run(trees(&[(1.0, 1.0)]));
         assert_eq!(speed(&run), "");
-        run.timings = Some(vec![time("another"), time("scene-a")]);
+        hits(&mut run).timings = Some(vec![time("another"), time("scene-a")]);
         assert!(
             speed(&run)
                 .starts_with("speed  100 visits in 2.00 s of counting (50.0 a second, 3 threads)")
         );
-        run.timings = Some(vec![time("another")]);
+        hits(&mut run).timings = Some(vec![time("another")]);
         assert_eq!(speed(&run), "");
     }
 
@@ -217,7 +240,8 @@ mod tests {
     fn a_run_of_single_leaves_says_so() {
         let mut run = fixture::run(trees(&[(1.0, 1.0), (1.0, 1.0)]));
         assert!(!study(&run).contains("nothing to fit"));
-        run.cells.iter_mut().for_each(|cell| cell.slope = None);
+        let cells = &mut hits(&mut run).cells;
+        cells.iter_mut().for_each(|cell| cell.slope = None);
         assert!(study(&run).contains("no tree has a node besides its root: nothing to fit\n"));
     }
 }

@@ -8,7 +8,9 @@ use std::path::Path;
 use super::figure::{Figure, Form, Segment};
 use super::fixture::{cell, cells, nodes, summary};
 use super::text::caption_lines;
-use super::{ReportError, Run, cost, figure3, read_run, screen, slopes, write_plots, write_tables};
+use super::{
+    Content, ReportError, Run, cost, figure3, read_run, screen, slopes, write_plots, write_tables,
+};
 use crate::study::records::CellRecord;
 
 fn figure3_of(count: u64, least: f64) -> Figure {
@@ -174,7 +176,7 @@ fn a_run_becomes_figures_and_tables() {
     let cells = cells(2, 3);
     save(dir.path(), &cells, Some(&cells[3]));
     let run = read_run(dir.path()).unwrap();
-    assert_eq!(run.cells, cells);
+    assert_eq!(run.hits().unwrap().cells, cells);
     let out = dir.path().join("plots/test");
     let mut written = write_plots(&run, &out).unwrap();
     written.extend(write_tables(&run, &out).unwrap());
@@ -205,7 +207,8 @@ fn the_figure_needs_its_nodes_only_where_nodes_were_kept() {
     let out = dir.path().join("out");
     assert_eq!(write_plots(&run, &out).unwrap().len(), 4);
     let mut leaves = run.clone();
-    leaves.cells.iter_mut().for_each(|cell| cell.slope = None);
+    let Content::Hits(hits) = &mut leaves.content;
+    hits.cells.iter_mut().for_each(|cell| cell.slope = None);
     let written = write_plots(&leaves, &dir.path().join("leaves")).unwrap();
     assert_eq!(written.len(), 2, "no slopes, no figure of slopes");
     // The nodes of another cell do not make the figure.
@@ -254,5 +257,6 @@ fn tables_never_overwrite_the_data() {
     let run = read_run(dir.path()).unwrap();
     let error = write_tables(&run, &dir.path().join(".")).unwrap_err();
     assert!(matches!(error, ReportError::Overwrite { .. }));
-    assert_eq!(read_run(dir.path()).unwrap().cells, run.cells);
+    let again = read_run(dir.path()).unwrap();
+    assert_eq!(again.hits().unwrap().cells, run.hits().unwrap().cells);
 }

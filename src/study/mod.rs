@@ -1,22 +1,62 @@
-//! Experiments: from a file to cells, from cells to records, from records to verdicts.
+//! Experiments: from a file to cells, from cells to records, from records to verdicts. One folder a kind.
 
-pub mod cell;
-pub mod findings;
-pub mod hits_vs_area;
+pub mod hits;
+pub mod identity;
+pub mod lines;
 pub mod plan;
 pub mod records;
-pub mod samplers;
-pub mod scores;
-pub mod spread;
 pub mod store;
-pub mod verdicts;
+pub mod watcher;
 
-pub use plan::{LineRule, Plan, PlanError};
+use thiserror::Error;
 
-use sha2::{Digest, Sha256};
+use crate::scene::Scene;
 
-/// The first 16 hexadecimal digits of the SHA-256: names a cell, a scene's content, a file.
-fn digest(bytes: &[u8]) -> String {
-    let hash = Sha256::digest(bytes);
-    hash.iter().take(8).map(|b| format!("{b:02x}")).collect()
+pub use lines::LineRule;
+pub use plan::{Kind, Plan, PlanError};
+use store::{Store, StoreError};
+pub use watcher::Watcher;
+
+/// Version of the layout of `data/`.
+pub const SCHEMA: u32 = 2;
+
+/// Level of an estimate's own interval.
+pub const LEVEL: f64 = 0.99;
+
+/// Why a run ended early.
+#[derive(Debug, Error)]
+pub enum RunError {
+    /// An integer identity failed, or two ways to count disagree: a bug in the program, never a property of the scene.
+    #[error("{place}: {fault}")]
+    Bug {
+        /// Scene and strategy.
+        place: String,
+        /// What disagrees.
+        fault: String,
+    },
+    /// The folder cannot be written.
+    #[error(transparent)]
+    Store(#[from] StoreError),
+}
+
+/// Run a plan over its scenes, in its order, and write its files but for tables.
+///
+/// # Errors
+/// If a file cannot be written, or if the program contradicts itself.
+pub fn run(
+    plan: &Plan,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    match &plan.kind {
+        Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher),
+    }
+}
+
+/// What a run would do, a line a cell.
+pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
+    match &plan.kind {
+        Kind::HitsVsArea(asked) => hits::describe(plan, asked, scenes),
+    }
 }

@@ -1,14 +1,24 @@
 //! Experiment files: strict TOML, validated once, trusted inside.
+//!
+//! Every kind of experiment has the same head (question, seed, scenes, costs) and keys of its own. `[quick]` holds keys that
+//! take the place of those outside when the quick form is asked for.
 
 use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
+use serde::de::DeserializeOwned;
 use thiserror::Error;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Deserializer};
 
 use crate::cost::CostModel;
-use crate::kd::{StopRule, Strategy};
+use crate::kd::Strategy;
+
+use super::hits::HitsVsArea;
+use super::records::Summary;
+use super::{LEVEL, LineRule, SCHEMA};
 
 /// What an experiment asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -23,132 +33,37 @@ pub struct Plan {
     pub seed: u64,
     /// Scenes, as on the command line.
     pub scenes: Vec<String>,
-    /// Strategies.
-    pub strategies: Vec<Strategy>,
-    /// The stop rule, the same for all.
-    pub stop: StopRule,
     /// What steps cost.
     pub cost: CostModel,
-    /// How many lines a cell counts.
-    pub lines: LineRule,
-    /// Whether `nodes.csv` has every cell's nodes; otherwise the figure's only.
-    pub nodes: bool,
-    /// The cell that the main figure shows.
-    pub figure: Figure,
-    /// Which checks are made of the samplers besides those of the run's own lines.
-    pub controls: Option<Controls>,
-    /// What is expected.
-    pub expect: Expect,
     /// Whether this is the quick form.
     pub quick: bool,
+    /// What its kind asks for besides.
+    pub kind: Kind,
 }
 
-/// How many lines a cell counts.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LineRule {
-    /// Wanted half-width of the slope's 99 % interval around 1, with room for chance: see [`choose`](Self::choose).
-    slope_error: f64,
-    /// At least so many.
-    min: u64,
-    /// At most so many.
-    max: u64,
+/// The kinds of experiment there are.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Kind {
+    /// Hits against surface area, for every node of every tree.
+    HitsVsArea(HitsVsArea),
 }
 
-/// 2.58 standard errors for the interval and 3.3 for chance: the interval lies within the wanted bounds in all but one of
-/// two thousand correct runs.
-const ROOM: f64 = 5.9;
+impl Kind {
+    /// The names of all kinds.
+    pub const NAMES: [&str; 1] = ["hits-vs-area"];
 
-/// Fewest lines a cell may count: two make a variance, and the contrasts' covariance needs more.
-const FEWEST_LINES: u64 = 1024;
-/// Most lines a cell may count: sums of squares of counts stay exact.
-const MOST_LINES: u64 = 1 << 40;
-
-impl LineRule {
-    /// Exactly so many lines.
-    pub fn exactly(lines: u64) -> Result<Self, String> {
-        Self::for_error(1.0, lines, lines)
-    }
-
-    /// As many as a wanted error of the slope asks for, from `min` to `max`.
-    pub fn for_error(slope_error: f64, min: u64, max: u64) -> Result<Self, String> {
-        let rule = Self {
-            slope_error,
-            min,
-            max,
-        };
-        rule.check().map_err(|wrong| wrong.message)?;
-        Ok(rule)
-    }
-
-    /// The smallest power of two times `min` for which 5.9 `sigma` / sqrt(N) is at most the wanted error, capped at the
-    /// maximum. `sigma` is the standard deviation of the slope's per-line score.
-    pub fn choose(&self, sigma: f64) -> u64 {
-        let wanted = ROOM * sigma / self.slope_error;
-        let mut n = self.min;
-        while n < self.max && (n as f64) < wanted * wanted {
-            n *= 2;
+    /// The name in files.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::HitsVsArea(_) => Self::NAMES[0],
         }
-        n.min(self.max)
     }
 
-    /// The fewest lines it can give.
-    pub fn at_least(&self) -> u64 {
-        self.min
+    fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
+        match self {
+            Self::HitsVsArea(asked) => asked.check(scenes),
+        }
     }
-
-    fn check(&self) -> Result<(), Wrong> {
-        let Self {
-            slope_error,
-            min,
-            max,
-        } = *self;
-        wrong_unless(
-            slope_error > 0.0 && slope_error <= 1.0,
-            "lines.slope_error",
-            || format!("lines.slope_error = {slope_error}, but it must be above 0 and at most 1"),
-        )?;
-        wrong_unless(min >= FEWEST_LINES, "lines.min", || {
-            format!("{min} lines, but a cell needs at least {FEWEST_LINES} for its standard errors")
-        })?;
-        wrong_unless((min..=MOST_LINES).contains(&max), "lines.max", || {
-            format!("lines.max = {max}, but it must be lines.min = {min} to {MOST_LINES}")
-        })
-    }
-}
-
-/// The cell a figure shows.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Figure {
-    /// Its scene, one of the experiment's.
-    pub scene: String,
-    /// Its strategy, one of the experiment's.
-    pub strategy: Strategy,
-}
-
-/// Negative controls: every law of lines there is, exact or not, goes through the sampler checks.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Controls {
-    /// Lines of each law.
-    pub lines: u64,
-    /// Of a wrong law at least one p-value must lie below this.
-    pub rejected_below: f64,
-    /// Of an exact law all p-values must lie above this.
-    pub accepted_above: f64,
-}
-
-/// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Expect {
-    /// Every 99 % interval of a slope lies within 1 +- this.
-    pub slope_within: f64,
-    /// Chance that any of the simultaneous intervals of a correct run misses its prediction.
-    pub family: f64,
-    /// Level of the gate: Holm over the p-values of all cells.
-    pub gate: f64,
 }
 
 /// A value that makes no sense.
@@ -161,7 +76,8 @@ pub struct Wrong {
     pub message: String,
 }
 
-fn wrong_unless(
+/// An error for this key, unless it is right.
+pub(super) fn wrong_unless(
     right: bool,
     key: &'static str,
     message: impl FnOnce() -> String,
@@ -215,44 +131,17 @@ pub fn is_folder_name(name: &str) -> bool {
     !name.is_empty() && !name.starts_with('.') && name.chars().all(plain)
 }
 
-/// The kinds of experiment there are.
-pub const KINDS: [&str; 1] = ["hits-vs-area"];
+/// The keys that every kind has.
+const HEAD: [&str; 5] = ["kind", "question", "seed", "scenes", "cost"];
 
-/// The only key that must be known before the rest can be read.
+/// What stands in them.
 #[derive(Deserialize)]
-struct Header {
-    kind: toml::Spanned<String>,
-}
-
-/// The file as written.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct File {
-    #[serde(rename = "kind")]
-    _kind: String,
+struct Head {
+    kind: Spanned<String>,
     question: String,
     seed: u64,
     scenes: Vec<String>,
-    strategies: Vec<Strategy>,
-    stop: StopRule,
-    #[serde(default)]
-    nodes: bool,
     cost: CostModel,
-    lines: LineRule,
-    figure: Figure,
-    controls: Option<Controls>,
-    expect: Expect,
-    quick: Option<Quick>,
-}
-
-/// What `--quick` puts in place: smaller scenes, fewer lines, nothing else.
-#[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
-struct Quick {
-    scenes: Vec<String>,
-    lines: LineRule,
-    figure: Figure,
-    expect: Expect,
 }
 
 /// What the command line may change.
@@ -313,70 +202,92 @@ impl Plan {
         };
         let syntax =
             |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), one_line(e.message()));
-        let kind = toml::from_str::<Header>(text).map_err(syntax)?.kind;
-        if !KINDS.contains(&kind.get_ref().as_str()) {
-            let message = format!(
-                "unknown kind '{}', expected one of {}",
-                kind.get_ref(),
-                KINDS.join(", ")
-            );
-            return Err(at(kind.span().start, message));
-        }
-        let file: File = toml::from_str(text).map_err(syntax)?;
-        let quick = overrides.quick;
-        let (mut scenes, mut lines, mut figure, mut expect) =
-            (file.scenes, file.lines, file.figure, file.expect);
         let value = |message: &str| PlanError::Value {
             path: path.into(),
             message: message.into(),
         };
+        let mut table = DeTable::parse(text).map_err(syntax)?;
+        let quick = table.get_mut().remove("quick");
+        if overrides.quick && quick.is_none() {
+            return Err(value(
+                "--quick needs a section [quick] that says the smaller form: scenes, lines, figure and expect, each as                  outside of it",
+            ));
+        }
         if !is_folder_name(name) || RESERVED.iter().any(|r| r.eq_ignore_ascii_case(name)) {
             return Err(value(&format!(
-                "'{name}' cannot name the folders of a run; the file's name must have letters, digits, '-', '_' and '.' \
-                 only, not start with '.', and not be one of {}",
+                "'{name}' cannot name the folders of a run; the file's name must have letters, digits, '-', '_' and '.'                  only, not start with '.', and not be one of {}",
                 RESERVED.join(", ")
             )));
         }
-        if quick {
-            let small = file.quick.ok_or_else(|| {
-                value(
-                    "--quick needs a section [quick] that says the smaller form: scenes, lines, figure and expect, \
-                     each as outside of it",
-                )
-            })?;
-            (scenes, lines, figure, expect) =
-                (small.scenes, small.lines, small.figure, small.expect);
+        // Both forms are read, whichever is asked for: a mistake in either is told.
+        let small = quick.map(|quick| overlay(&table, quick)).transpose();
+        let small = small.map_err(|offset| at(offset, "quick must be a table".into()))?;
+        let read = |table: &Spanned<DeTable>| {
+            let fault = |fault: Fault| match fault {
+                Fault::Toml(error) => syntax(error),
+                Fault::At(offset, message) => at(offset, message),
+                Fault::Value(Wrong { key, message }) => match place(table.get_ref(), key) {
+                    Some(offset) => at(offset, message),
+                    None => value(&message),
+                },
+            };
+            let mut plan = Self::of(table).map_err(fault)?;
+            plan.check().map_err(|wrong| fault(Fault::Value(wrong)))?;
+            plan.name = name.into();
+            Ok::<_, PlanError>(plan)
+        };
+        let full = read(&table)?;
+        let small = small.map(|table| read(&table)).transpose()?;
+        let mut plan = match small {
+            Some(mut small) if overrides.quick => {
+                small.make_quick();
+                small
+            }
+            _ => full,
+        };
+        plan.command = format!("validate run {path}{}", overrides.arguments());
+        if let Some(seed) = overrides.seed {
+            plan.seed = seed;
         }
-        let mut command = format!("validate run {path}");
-        command += &overrides.arguments();
         if let Some(n) = overrides.lines {
-            lines = LineRule::exactly(n).map_err(|message| PlanError::Value {
+            plan.set_lines(n).map_err(|message| PlanError::Value {
                 path: format!("--lines {n}"),
                 message,
             })?;
         }
-        let plan = Self {
-            name: format!("{name}{}", if quick { "-quick" } else { "" }),
-            command,
-            question: file.question,
-            seed: overrides.seed.unwrap_or(file.seed),
-            scenes,
-            strategies: file.strategies,
-            stop: file.stop,
-            cost: file.cost,
-            lines,
-            nodes: file.nodes,
-            figure,
-            controls: file.controls.filter(|_| !quick),
-            expect,
-            quick,
-        };
-        plan.check()
-            .map_err(|Wrong { key, message }| match place(text, key, quick) {
-                Some(offset) => at(offset, message),
-                None => value(&message),
-            })?;
         Ok(plan)
+    }
+
+    /// The plan in a table; its name and command are not there.
+    fn of(table: &Spanned<DeTable>) -> Result<Self, Fault> {
+        let head: Head = Head::deserialize(Deserializer::from(table.clone()))?;
+        let mut rest = table.clone();
+        for key in HEAD {
+            rest.get_mut().remove(key);
+        }
+        fn asked<T: DeserializeOwned>(table: Spanned<DeTable>) -> Result<T, Fault> {
+            Ok(T::deserialize(Deserializer::from(table))?)
+        }
+        let kind = match head.kind.get_ref().as_str() {
+            "hits-vs-area" => Kind::HitsVsArea(asked(rest)?),
+            other => {
+                let message = format!(
+                    "unknown kind '{other}', expected one of {}",
+                    Kind::NAMES.join(", ")
+                );
+                return Err(Fault::At(head.kind.span().start, message));
+            }
+        };
+        Ok(Self {
+            name: String::new(),
+            command: String::new(),
+            question: head.question,
+            seed: head.seed,
+            scenes: head.scenes,
+            cost: head.cost,
+            quick: false,
+            kind,
+        })
     }
 
     /// Whether the values make sense together; the error says what would.
@@ -384,31 +295,15 @@ impl Plan {
         wrong_unless(!self.question.trim().is_empty(), "question", || {
             "the question is empty; it is printed with every answer".into()
         })?;
-        for (key, empty) in [
-            ("scenes", self.scenes.is_empty()),
-            ("strategies", self.strategies.is_empty()),
-        ] {
-            wrong_unless(!empty, key, || format!("{key} must name at least one"))?;
-        }
+        wrong_unless(!self.scenes.is_empty(), "scenes", || {
+            "scenes must name at least one".into()
+        })?;
         let mut seen = HashSet::new();
         for scene in &self.scenes {
             wrong_unless(seen.insert(scene.as_str()), "scenes", || {
                 format!("scene '{scene}' is named twice")
             })?;
         }
-        let mut seen = HashSet::new();
-        for &strategy in &self.strategies {
-            wrong_unless(seen.insert(strategy), "strategies", || {
-                format!("strategy '{strategy}' is named twice")
-            })?;
-        }
-        let Figure { scene, strategy } = &self.figure;
-        let drawn = self.scenes.contains(scene) && self.strategies.contains(strategy);
-        wrong_unless(drawn, "figure", || {
-            format!(
-                "the figure's cell ({scene}, {strategy}) is not among the scenes and strategies"
-            )
-        })?;
         let CostModel { c_k, c_b, c_t } = self.cost;
         let possible = [c_k, c_b, c_t]
             .iter()
@@ -419,81 +314,119 @@ impl Plan {
                  all 0"
             )
         })?;
-        let Expect {
-            slope_within,
-            family,
-            gate,
-        } = self.expect;
-        let finite = slope_within > 0.0 && slope_within.is_finite();
-        wrong_unless(finite, "expect.slope_within", || {
-            format!("expect.slope_within = {slope_within}, but it must be a number above 0")
-        })?;
-        let likely = (LEAST_FAMILY..1.0).contains(&family);
-        wrong_unless(likely, "expect.family", || {
-            format!(
-                "expect.family = {family}, but it must be at least {LEAST_FAMILY:e} and below 1"
-            )
-        })?;
-        wrong_unless((0.0..1.0).contains(&gate), "expect.gate", || {
-            format!("expect.gate = {gate}, but it must be 0 to 1, 1 excluded")
-        })?;
-        if let Some(Controls {
-            lines,
-            rejected_below,
-            accepted_above,
-        }) = self.controls
-        {
-            wrong_unless(lines >= FEWEST_LINES, "controls.lines", || {
-                format!("controls.lines = {lines}, but it must be at least {FEWEST_LINES}")
-            })?;
-            for (key, bound) in [
-                ("controls.rejected_below", rejected_below),
-                ("controls.accepted_above", accepted_above),
-            ] {
-                wrong_unless((0.0..1.0).contains(&bound), key, || {
-                    format!("{key} = {bound}, but it must be 0 to 1, 1 excluded")
-                })?;
-            }
-        }
-        self.lines.check()
+        self.kind.check(&self.scenes)
     }
+
+    /// The head of its summary.
+    pub(super) fn summary(&self) -> Summary {
+        Summary {
+            schema: SCHEMA,
+            experiment: self.name.clone(),
+            kind: self.kind.name().into(),
+            question: self.question.clone(),
+            seed: self.seed,
+            command: self.command.clone(),
+            stop: None,
+            interval_level: LEVEL,
+            family_level: None,
+            quick: self.quick,
+            slope_within: None,
+            figure_scene: None,
+            figure_strategy: None,
+            verdicts: Vec::new(),
+            estimates: Vec::new(),
+        }
+    }
+
+    /// Mark the plan as the quick form: no controls, folders of its own.
+    fn make_quick(&mut self) {
+        self.quick = true;
+        self.name += "-quick";
+        match &mut self.kind {
+            Kind::HitsVsArea(asked) => asked.controls = None,
+        }
+    }
+
+    /// Count exactly so many lines in every cell.
+    fn set_lines(&mut self, lines: u64) -> Result<(), String> {
+        let rule = LineRule::exactly(lines)?;
+        match &mut self.kind {
+            Kind::HitsVsArea(asked) => asked.lines = rule,
+        }
+        Ok(())
+    }
+
+    /// Give a scene its full name, wherever the plan names it.
+    pub fn rename_scene(&mut self, number: usize, name: &str) {
+        let old = std::mem::replace(&mut self.scenes[number], name.into());
+        match &mut self.kind {
+            Kind::HitsVsArea(asked) if asked.figure.scene == old => {
+                asked.figure.scene = name.into();
+            }
+            Kind::HitsVsArea(_) => {}
+        }
+    }
+}
+
+/// What is wrong with a table.
+enum Fault {
+    Toml(toml::de::Error),
+    Value(Wrong),
+    At(usize, String),
+}
+
+impl From<toml::de::Error> for Fault {
+    fn from(error: toml::de::Error) -> Self {
+        Self::Toml(error)
+    }
+}
+
+/// A table with the entries of another in place of its own of the same name; the error is the place of what is no table.
+fn overlay<'i>(
+    table: &Spanned<DeTable<'i>>,
+    quick: Spanned<DeValue<'i>>,
+) -> Result<Spanned<DeTable<'i>>, usize> {
+    let start = quick.span().start;
+    let DeValue::Table(entries) = quick.into_inner() else {
+        return Err(start);
+    };
+    let mut table = table.clone();
+    for (key, value) in entries {
+        table.get_mut().remove(key.get_ref().as_ref());
+        table.get_mut().insert(key, value);
+    }
+    Ok(table)
+}
+
+/// At least one strategy, none twice.
+pub(super) fn check_strategies(strategies: &[Strategy]) -> Result<(), Wrong> {
+    wrong_unless(!strategies.is_empty(), "strategies", || {
+        "strategies must name at least one".into()
+    })?;
+    let mut seen = HashSet::new();
+    for &strategy in strategies {
+        wrong_unless(seen.insert(strategy), "strategies", || {
+            format!("strategy '{strategy}' is named twice")
+        })?;
+    }
+    Ok(())
 }
 
 /// Costs above this could leave f64 in a sum.
 const MOST_COST: f64 = 1e100;
 
-/// The least chance of a miss of all intervals together for which their width can be computed.
-const LEAST_FAMILY: f64 = 1e-12;
-
-/// Where a key stands: in `[quick]` if the quick form has it, else outside; if not itself, then its table.
-fn place(text: &str, key: &str, quick: bool) -> Option<usize> {
-    let file = toml::de::DeTable::parse(text).ok()?;
-    let mut outside = Some(file.get_ref());
+/// Where a key stands, with dots between tables and keys; if not itself, then its table.
+fn place(table: &DeTable, key: &str) -> Option<usize> {
+    let mut outside = Some(table);
     let mut found = None;
-    if quick && let Some((_, value)) = entry(file.get_ref(), "quick") {
-        let section = value.get_ref().as_table();
-        let first = key.split('.').next()?;
-        if section.is_some_and(|s| entry(s, first).is_some()) {
-            outside = section;
-        }
-    }
     for part in key.split('.') {
-        let Some((key, value)) = outside.and_then(|table| entry(table, part)) else {
+        let Some((key, value)) = outside.and_then(|table| table.get_key_value(part)) else {
             break;
         };
-        found = Some(key);
+        found = Some(key.span().start);
         outside = value.get_ref().as_table();
     }
     found
-}
-
-/// Where a key of a table stands, and its value.
-fn entry<'t, 'i>(
-    table: &'t toml::de::DeTable<'i>,
-    key: &str,
-) -> Option<(usize, &'t toml::Spanned<toml::de::DeValue<'i>>)> {
-    let (key, value) = table.iter().find(|(k, _)| k.get_ref().as_ref() == key)?;
-    Some((key.span().start, value))
 }
 
 fn one_line(message: &str) -> String {

@@ -1,21 +1,20 @@
 //! The files of a run under `data/NAME/`: finished cells are found again, so that a stopped run resumes.
 //!
-//! `cells/ID.json` (and `cells/ID.nodes.csv`) hold a finished cell, `timings.csv` its seconds; `cells.csv`, `bins.csv`,
-//! `nodes.csv` and `summary.json` are put together from them at the end. `README.md` says what all of them hold.
+//! `cells/ID.json` holds a finished cell, `timings.csv` the seconds; the other files are put together from them at the
+//! end. `README.md` says what all of them hold.
 
-use std::collections::BTreeMap;
 use std::fs;
 use std::io;
 use std::path::{Path, PathBuf};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
 use crate::files::write_atomic;
 
-use super::cell::CellResult;
-use super::digest;
-use super::records::{SamplerRecord, Summary, TimingRecord};
+use super::identity::digest;
+use super::records::Summary;
 
 /// A folder cannot be written.
 #[derive(Debug, Error)]
@@ -28,138 +27,112 @@ pub struct StoreError {
 /// The data folder of one experiment.
 pub struct Store {
     folder: PathBuf,
-    timings: BTreeMap<String, TimingRecord>,
+    /// Whether finished cells are found again.
+    resumes: bool,
 }
 
 /// What the files of a run hold: goes beside them.
 const DICTIONARY: &str = include_str!("../../data/README.md");
 
+/// The file of seconds, the only one that is not reproducible.
+pub const TIMINGS: &str = "timings.csv";
+
 /// A finished cell on disk, with the program that made it: another program's cells are made anew.
 #[derive(Serialize, Deserialize)]
-struct Finished {
+struct Finished<T> {
     revision: String,
-    /// Digest of the file of nodes written with it, if one was.
-    nodes_sha256: Option<String>,
-    #[serde(flatten)]
-    result: CellResult,
+    id: String,
+    result: T,
 }
 
 impl Store {
     /// The store in this folder, which may not exist yet.
     pub fn open(folder: &Path) -> Self {
-        let timings = csv::Reader::from_path(folder.join("timings.csv")).map(|mut reader| {
-            let rows = reader.deserialize::<TimingRecord>().filter_map(Result::ok);
-            rows.map(|t| (t.cell.clone(), t)).collect()
-        });
         Self {
             folder: folder.into(),
-            timings: timings.unwrap_or_default(),
+            resumes: true,
+        }
+    }
+
+    /// The same, finding nothing that an earlier run has finished.
+    pub fn forgetful(self) -> Self {
+        Self {
+            resumes: false,
+            ..self
         }
     }
 
     /// Make the folder, with the description of its files: tells whether it can be written.
     pub fn prepare(&self) -> Result<(), StoreError> {
-        self.write(self.folder.join("README.md"), DICTIONARY.as_bytes())
+        self.write("README.md", DICTIONARY.as_bytes())
     }
 
-    fn cell_path(&self, id: &str, ending: &str) -> PathBuf {
-        self.folder.join("cells").join(format!("{id}{ending}"))
-    }
-
-    /// A finished cell of this very program, with its nodes if they are needed; `None` if it must be measured.
-    ///
-    /// Taken only if the file is this cell's own and its nodes are those written with it.
-    pub fn finished(&self, id: &str, nodes: bool) -> Option<CellResult> {
-        let text = fs::read_to_string(self.cell_path(id, ".json")).ok()?;
-        let Finished {
-            revision,
-            nodes_sha256,
-            mut result,
-        } = serde_json::from_str(&text).ok()?;
-        if revision != crate::REVISION || result.record.cell != id {
+    /// A finished cell of this very program; `None` if it must be measured.
+    pub fn finished<T: DeserializeOwned>(&self, id: &str) -> Option<T> {
+        if !self.resumes {
             return None;
         }
-        result.timing = self.timings.get(id).cloned();
-        if nodes {
-            let bytes = fs::read(self.cell_path(id, ".nodes.csv")).ok()?;
-            if nodes_sha256? != digest(&bytes) {
-                return None;
-            }
-            let mut reader = csv::Reader::from_reader(&bytes[..]);
-            result.nodes = Some(reader.deserialize().collect::<Result<_, _>>().ok()?);
-        }
-        Some(result)
+        let text = fs::read_to_string(self.folder.join(cell_file(id))).ok()?;
+        let found: Finished<T> = serde_json::from_str(&text).ok()?;
+        (found.revision == crate::REVISION && found.id == id).then_some(found.result)
     }
 
-    /// Keep a finished cell. Its nodes go first: a cell counts as finished when its JSON is there.
-    pub fn save(&mut self, result: &CellResult) -> Result<(), StoreError> {
-        let id = &result.record.cell;
-        let mut nodes_sha256 = None;
-        if let Some(nodes) = &result.nodes {
-            let bytes = csv_bytes(nodes);
-            nodes_sha256 = Some(digest(&bytes));
-            self.write(self.cell_path(id, ".nodes.csv"), &bytes)?;
-        }
-        if let Some(timing) = &result.timing {
-            self.timings.insert(id.clone(), timing.clone());
-            let rows: Vec<_> = self.timings.values().collect();
-            self.write(self.folder.join("timings.csv"), &csv_bytes(&rows))?;
-        }
+    /// Keep a finished cell.
+    pub fn save<T: Serialize>(&self, id: &str, result: &T) -> Result<(), StoreError> {
         let finished = Finished {
             revision: crate::REVISION.into(),
-            nodes_sha256,
-            result: CellResult {
-                nodes: None,
-                timing: None,
-                ..result.clone()
-            },
+            id: id.into(),
+            result,
         };
         let json = serde_json::to_vec(&finished).expect("records are plain data");
-        self.write(self.cell_path(id, ".json"), &json)
+        self.write(&cell_file(id), &json)
     }
 
-    /// Put the run's files together. `timings.csv` stays as [`save`](Self::save) has left it, the description as
-    /// [`prepare`](Self::prepare).
-    pub fn write_run(
+    /// Write a file of rows; gives its digest.
+    pub fn write_rows<T: Serialize>(
         &self,
-        results: &[CellResult],
-        samplers: &[SamplerRecord],
-        summary: &Summary,
-    ) -> Result<(), StoreError> {
-        let rows: Vec<_> = results.iter().map(|r| &r.record).collect();
-        self.write(self.folder.join("cells.csv"), &csv_bytes(&rows))?;
-        let rows: Vec<_> = results.iter().flat_map(|r| &r.bins).collect();
-        self.write(self.folder.join("bins.csv"), &csv_bytes(&rows))?;
-        let rows: Vec<_> = results
-            .iter()
-            .filter_map(|r| r.nodes.as_ref())
-            .flatten()
-            .collect();
-        self.write(self.folder.join("nodes.csv"), &csv_bytes(&rows))?;
-        let timings = self.folder.join("timings.csv");
-        if !timings.exists() {
-            self.write(timings, TIMINGS_HEADER)?;
+        name: &str,
+        rows: impl IntoIterator<Item = T>,
+    ) -> Result<String, StoreError> {
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        for row in rows {
+            writer.serialize(row).expect("records are flat");
         }
-        self.write(self.folder.join("samplers.csv"), &csv_bytes(samplers))?;
+        let bytes = writer.into_inner().expect("writing to memory");
+        self.write(name, &bytes)?;
+        Ok(digest(&bytes))
+    }
+
+    /// The rows of a file, if it can be read; with a digest given, only those it was made of.
+    pub fn read_rows<T: DeserializeOwned>(
+        &self,
+        name: &str,
+        wanted: Option<&str>,
+    ) -> Option<Vec<T>> {
+        let bytes = fs::read(self.folder.join(name)).ok()?;
+        if wanted.is_some_and(|wanted| wanted != digest(&bytes)) {
+            return None;
+        }
+        let mut reader = csv::Reader::from_reader(&bytes[..]);
+        reader.deserialize().collect::<Result<_, _>>().ok()
+    }
+
+    /// Write the summary.
+    pub fn write_summary(&self, summary: &Summary) -> Result<(), StoreError> {
         let mut json = serde_json::to_vec_pretty(summary).expect("records are plain data");
         json.push(b'\n');
-        self.write(self.folder.join("summary.json"), &json)
+        self.write("summary.json", &json)
     }
 
-    fn write(&self, path: PathBuf, bytes: &[u8]) -> Result<(), StoreError> {
+    /// Write a file of the run.
+    pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
         write_atomic(&path, bytes).map_err(|source| StoreError { path, source })
     }
 }
 
-/// `timings.csv` without a row.
-const TIMINGS_HEADER: &[u8] = b"cell,scene,strategy,build_s,count_s,threads,visits\n";
-
-fn csv_bytes<T: Serialize>(rows: &[T]) -> Vec<u8> {
-    let mut writer = csv::Writer::from_writer(Vec::new());
-    for row in rows {
-        writer.serialize(row).expect("records are flat");
-    }
-    writer.into_inner().expect("writing to memory")
+fn cell_file(id: &str) -> String {
+    format!("cells/{id}.json")
 }
 
 #[cfg(test)]
@@ -167,37 +140,33 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_header_is_that_of_a_row() {
-        let row = TimingRecord {
-            cell: "c".into(),
-            scene: "s".into(),
-            strategy: "sah".into(),
-            build_s: 1.0,
-            count_s: 2.0,
-            threads: 3,
-            visits: 4,
-        };
-        let written = csv_bytes(&[row]);
-        assert!(written.starts_with(TIMINGS_HEADER));
-    }
-
-    #[test]
-    fn the_dictionary_names_every_column_of_the_timings_and_every_file() {
-        let header = String::from_utf8_lossy(TIMINGS_HEADER);
-        for column in header.trim_end().split(',') {
-            assert!(DICTIONARY.contains(&format!("`{column}`")), "{column}");
-        }
+    fn the_dictionary_names_every_file() {
         for file in [
             "cells.csv",
             "nodes.csv",
             "bins.csv",
             "samplers.csv",
-            "timings.csv",
+            TIMINGS,
             "summary.json",
             "tables/",
             "cells/",
         ] {
             assert!(DICTIONARY.contains(file), "{file}");
         }
+    }
+
+    #[test]
+    fn a_cell_is_found_again_by_its_own_program_only() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let store = Store::open(folder.path());
+        store.save("a", &7).expect("written");
+        assert_eq!(store.finished::<u32>("a"), Some(7));
+        assert_eq!(store.finished::<u32>("b"), None);
+        let path = folder.path().join("cells/a.json");
+        let other = fs::read_to_string(&path).expect("read");
+        fs::write(&path, other.replace(crate::REVISION, "another")).expect("written");
+        assert_eq!(store.finished::<u32>("a"), None);
+        store.save("a", &7).expect("written");
+        assert_eq!(store.forgetful().finished::<u32>("a"), None);
     }
 }

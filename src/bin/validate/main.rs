@@ -16,8 +16,10 @@ use sahlab::kd::{StopRule, Strategy};
 use sahlab::rays::LineLaw;
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
-use sahlab::study::plan::{Expect, Figure, Overrides, PlanError};
-use sahlab::study::{LineRule, Plan};
+use sahlab::study::hits::HitsVsArea;
+use sahlab::study::hits::asked::{Expect, Figure};
+use sahlab::study::plan::{Overrides, PlanError};
+use sahlab::study::{self, Kind, LineRule, Plan};
 
 use args::{Cli, Command, Common, Listed};
 use output::{complain, print};
@@ -114,7 +116,8 @@ fn run_loaded(
 ) -> Result<bool> {
     if common.dry_run {
         for (plan, scenes) in plans {
-            print(&run::describe(plan, scenes))?;
+            let head = format!("{}\n{}: ", plan.question, plan.name);
+            print(&(head + &study::describe(plan, scenes)))?;
         }
         return Ok(true);
     }
@@ -151,22 +154,24 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
         ),
         seed: overrides.seed.unwrap_or(1),
         scenes: vec![spec.into()],
-        strategies: Strategy::ALL.into(),
-        stop,
         cost: CostModel::WALD_HAVRAN,
-        lines: lines.map_err(anyhow::Error::msg)?,
-        nodes: false,
-        figure: Figure {
-            scene: spec.into(),
-            strategy: Strategy::Sah,
-        },
-        controls: None,
-        expect: Expect {
-            slope_within,
-            family: 0.01,
-            gate: 0.001,
-        },
         quick: common.quick,
+        kind: Kind::HitsVsArea(HitsVsArea {
+            strategies: Strategy::ALL.into(),
+            stop,
+            nodes: false,
+            lines: lines.map_err(anyhow::Error::msg)?,
+            figure: Figure {
+                scene: spec.into(),
+                strategy: Strategy::Sah,
+            },
+            controls: None,
+            expect: Expect {
+                slope_within,
+                family: 0.01,
+                gate: 0.001,
+            },
+        }),
     };
     let scenes = run::load_scenes(&mut plan, None)?;
     let quick = if common.quick { "-quick" } else { "" };

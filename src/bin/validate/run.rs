@@ -6,22 +6,14 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use sahlab::rays::LineLaw;
 use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
-use sahlab::study::Plan;
-use sahlab::study::cell::{CellResult, measure};
-use sahlab::study::hits_vs_area::{cells, summarise};
-use sahlab::study::records::SamplerRecord;
-use sahlab::study::samplers;
 use sahlab::study::store::Store;
+use sahlab::study::{self, Plan};
 
 use crate::args::Common;
 use crate::output::{note, print};
 use crate::progress::Progress;
-
-/// Lines a cell is guessed to take before its pilot, as a multiple of the least.
-const GUESS: u64 = 2;
 
 /// What to do where a mesh of the experiments that come with the program is missing.
 const FETCH: &str =
@@ -32,7 +24,8 @@ const FETCH: &str =
 pub fn load_scenes(plan: &mut Plan, place: Option<&Path>) -> Result<Vec<Scene>> {
     let place = place.map_or_else(String::new, |path| format!("{}: ", path.display()));
     let mut scenes = Vec::new();
-    for spec in &mut plan.scenes {
+    for number in 0..plan.scenes.len() {
+        let spec = plan.scenes[number].as_str();
         let scene = Scene::load(spec).map_err(|error| {
             let missing = spec.starts_with("models/") && !Path::new(spec).exists();
             let remedy = if missing {
@@ -42,10 +35,7 @@ pub fn load_scenes(plan: &mut Plan, place: Option<&Path>) -> Result<Vec<Scene>> 
             };
             anyhow!("{place}{:#}{remedy}", anyhow::Error::from(error))
         })?;
-        if plan.figure.scene == *spec {
-            plan.figure.scene.clone_from(&scene.name);
-        }
-        spec.clone_from(&scene.name);
+        plan.rename_scene(number, &scene.name);
         scenes.push(scene);
     }
     // Again, now that every scene has its full name: two ways to write one scene are the same scene.
@@ -80,11 +70,15 @@ pub fn run(
         }
     }
     let [data, plots] = folders(plan, common);
-    let results = measure_cells(plan, scenes, &data, common)?;
-    let records: Vec<_> = results.iter().map(|r| r.record.clone()).collect();
-    let samplers = check_samplers(plan, scenes, common);
-    let summary = summarise(plan, &records, &samplers);
-    Store::open(&data).write_run(&results, &samplers, &summary)?;
+    let store = Store::open(&data);
+    let store = if common.force {
+        store.forgetful()
+    } else {
+        store
+    };
+    let progress = Progress::new(common.quiet);
+    study::run(plan, scenes, &store, &progress)?;
+    progress.finish();
 
     // From here on only files are read.
     let run = report::read_run(&data)?;
@@ -106,82 +100,6 @@ pub fn print_json(runs: &[Run]) -> Result<()> {
     };
     print(&(json.context("summaries are plain data")? + "\n"))?;
     Ok(())
-}
-
-fn measure_cells(
-    plan: &Plan,
-    scenes: &[Scene],
-    data: &Path,
-    common: &Common,
-) -> Result<Vec<CellResult>> {
-    let mut store = Store::open(data);
-    let planned = cells(plan, scenes);
-    let progress = Progress::new(planned.len(), GUESS * plan.lines.at_least(), common.quiet);
-    let finished: Vec<Option<CellResult>> = planned
-        .iter()
-        .map(|cell| {
-            if common.force {
-                return None;
-            }
-            store.finished(&cell.id, cell.nodes)
-        })
-        .collect();
-    let found = finished.iter().flatten().count();
-    progress.announce(planned.len() - found);
-    let mut results = Vec::new();
-    for (cell, finished) in planned.iter().zip(finished) {
-        if let Some(finished) = finished {
-            progress.skip();
-            results.push(finished);
-            continue;
-        }
-        let (scene, strategy) = (&cell.scene.name, cell.rules.strategy.name());
-        progress.begin(scene, &strategy);
-        let result = measure(cell, &progress).map_err(|e| anyhow!("{scene} {strategy}: {e}"))?;
-        store.save(&result)?;
-        results.push(result);
-    }
-    progress.finish();
-    if found > 0 && !common.quiet {
-        note(&format!(
-            "{found} of {} cells were finished by an earlier run (--force measures them again)",
-            planned.len()
-        ));
-    }
-    Ok(results)
-}
-
-/// The checks of the run's own lines and, where asked for, of every other law.
-fn check_samplers(plan: &Plan, scenes: &[Scene], common: &Common) -> Vec<SamplerRecord> {
-    let mut records = samplers::check_scenes(plan, scenes);
-    if let Some(controls) = plan.controls {
-        let laws = LineLaw::EXACT.len() + LineLaw::WRONG.len();
-        let progress = Progress::new(laws, controls.lines, common.quiet);
-        progress.begin("laws of lines", "checked");
-        records.extend(samplers::check_laws(plan, &progress));
-        progress.finish();
-    }
-    records
-}
-
-/// What a dry run prints.
-pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
-    let mut text = format!(
-        "{}\n{}: stop {}, seed {}\n",
-        plan.question, plan.name, plan.stop, plan.seed
-    );
-    for cell in cells(plan, scenes) {
-        let line = format!(
-            "{}  {:24} {:24} {:>9} objects, at least {} lines\n",
-            cell.id,
-            cell.scene.name,
-            cell.rules.strategy,
-            cell.scene.bounds.len(),
-            plan.lines.at_least()
-        );
-        text += &line;
-    }
-    text
 }
 
 /// Names must differ, or one run would overwrite the other.

@@ -6,9 +6,9 @@ use crate::stats::{
 };
 
 use super::cell::CellPlan;
-use super::records::{BinRecord, CellRecord, NodeRecord};
 use super::scores::{CONTRASTS, FIRST_CONTRAST, FIRST_SCORE, FREE, ORDINARY, Scoring, WEIGHTED};
 use super::spread::Spread;
+use crate::study::records::{BinRecord, CellRecord, NodeRecord};
 
 /// Hits and misses expected of a node below which its z is far from normal.
 const LEAST_EXPECTED: f64 = 10.0;

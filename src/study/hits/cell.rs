@@ -9,11 +9,13 @@ use crate::kd::{Counts, Prediction, Rules, Tree, audit::audit, build, predict};
 use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
-use super::LineRule;
+use crate::study::identity::{content, digest, line_seed};
+use crate::study::{LineRule, SCHEMA, Watcher};
+
 use super::findings::Found;
-use super::records::{BinRecord, CellRecord, NodeRecord, TimingRecord};
 use super::scores::{FIRST_SCORE, Scoring, WEIGHTED, score_lines};
 use super::spread::Spread;
+use crate::study::records::{BinRecord, CellRecord, NodeRecord, TimingRecord};
 
 /// What a cell is made of.
 #[derive(Clone)]
@@ -35,6 +37,26 @@ pub struct CellPlan<'a> {
     pub nodes: bool,
 }
 
+impl<'a> CellPlan<'a> {
+    /// A cell, without nodes.
+    pub fn new(scene: &'a Scene, rules: Rules, seed: u64, lines: LineRule) -> Self {
+        let content = content(scene);
+        let identity = format!(
+            "{SCHEMA} {} {content} {rules:?} seed {seed} {lines:?}",
+            scene.name
+        );
+        Self {
+            id: digest(identity.as_bytes()),
+            scene,
+            rules,
+            seed,
+            line_seed: line_seed(seed, &content),
+            lines,
+            nodes: false,
+        }
+    }
+}
+
 /// What a cell found.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct CellResult {
@@ -52,17 +74,6 @@ pub struct CellResult {
 
 /// First lines that are traversed one by one for standard errors, and that the streams are checked against.
 pub const PILOT: u64 = 1 << 16;
-
-/// Told how a cell gets on.
-pub trait Watcher: Sync {
-    /// The number of lines has been chosen.
-    fn lines_chosen(&self, _lines: u64) {}
-    /// This many more lines have been counted.
-    fn counted(&self, _lines: u64) {}
-}
-
-/// Watches nothing.
-impl Watcher for () {}
 
 /// Measure one cell on the current rayon pool.
 ///
@@ -101,7 +112,7 @@ pub fn compare(
     let scored = score_lines(tree, &scoring, pilot, |range| lines.range(range));
     let spread = Spread::new(tree, prediction, &scoring, &scored);
     let n = plan.lines.choose(spread.deviation(FIRST_SCORE + WEIGHTED));
-    watcher.lines_chosen(n);
+    watcher.revise(plan.lines.guess(), n);
 
     // All lines through the streams, then the same check that any count must pass.
     let started = Instant::now();
@@ -109,7 +120,7 @@ pub fn compare(
         tree,
         n,
         |range| lines.range(range),
-        |done| watcher.counted(done),
+        |done| watcher.done(done),
     );
     let count_s = started.elapsed().as_secs_f64();
     counts.check(tree)?;

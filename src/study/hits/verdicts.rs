@@ -2,13 +2,13 @@
 
 use crate::stats::holm;
 
-use super::plan::Plan;
-use super::records::{CellRecord, Estimate, SamplerRecord, Verdict};
+use super::HitsVsArea;
 use super::samplers;
+use crate::study::records::{CellRecord, Estimate, SamplerRecord, Verdict};
 
 /// Every verdict of a run.
 pub fn all(
-    plan: &Plan,
+    asked: &HitsVsArea,
     cells: &[CellRecord],
     samplers: &[SamplerRecord],
     estimates: &[Estimate],
@@ -16,16 +16,16 @@ pub fn all(
     let (slopes, counts): (Vec<&Estimate>, Vec<_>) =
         estimates.iter().partition(|e| e.name == "slope");
     let mut all = vec![identities(cells)];
-    all.extend(samplers::verdicts(plan, samplers));
-    all.extend(slope_within(plan, &slopes));
-    all.extend(simultaneous(plan, "slopes-cover", "1", &slopes));
+    all.extend(samplers::verdicts(asked, samplers));
+    all.extend(slope_within(asked, &slopes));
+    all.extend(simultaneous(asked, "slopes-cover", "1", &slopes));
     all.extend(simultaneous(
-        plan,
+        asked,
         "counts-cover",
         "the predicted count",
         &counts,
     ));
-    all.extend(gate(plan, cells));
+    all.extend(gate(asked, cells));
     all
 }
 
@@ -47,8 +47,8 @@ fn identities(cells: &[CellRecord]) -> Verdict {
 }
 
 /// Equivalence: the slope is not merely "not rejected", but proved to be close to 1.
-fn slope_within(plan: &Plan, slopes: &[&Estimate]) -> Option<Verdict> {
-    let bound = plan.expect.slope_within;
+fn slope_within(asked: &HitsVsArea, slopes: &[&Estimate]) -> Option<Verdict> {
+    let bound = asked.expect.slope_within;
     let reach = |e: &Estimate| Some((e.lo? - 1.0).abs().max((e.hi? - 1.0).abs()));
     let judged: Vec<(f64, &Estimate)> = slopes
         .iter()
@@ -81,7 +81,12 @@ fn unjudged(count: usize) -> String {
 }
 
 /// The intervals of all cells together contain what theory says.
-fn simultaneous(plan: &Plan, name: &str, what: &str, estimates: &[&Estimate]) -> Option<Verdict> {
+fn simultaneous(
+    asked: &HitsVsArea,
+    name: &str,
+    what: &str,
+    estimates: &[&Estimate],
+) -> Option<Verdict> {
     let judged: Vec<(bool, &Estimate)> = estimates
         .iter()
         .filter_map(|e| Some((covers(e)?, *e)))
@@ -111,7 +116,7 @@ fn simultaneous(plan: &Plan, name: &str, what: &str, estimates: &[&Estimate]) ->
             "{} of {} simultaneous intervals (family {} %) contain {what}{told}{}",
             judged.len() - missed.len(),
             judged.len(),
-            100.0 * plan.expect.family,
+            100.0 * asked.expect.family,
             unjudged(estimates.len() - judged.len())
         ),
     })
@@ -124,7 +129,7 @@ fn covers(e: &Estimate) -> Option<bool> {
 }
 
 /// Holm over slope, smallest tail and contrasts of all cells.
-fn gate(plan: &Plan, cells: &[CellRecord]) -> Option<Verdict> {
+fn gate(asked: &HitsVsArea, cells: &[CellRecord]) -> Option<Verdict> {
     let tests = |r: &CellRecord| {
         [
             ("slope", r.slope_p),
@@ -142,13 +147,13 @@ fn gate(plan: &Plan, cells: &[CellRecord]) -> Option<Verdict> {
     let (p, test, r) = p_values[worst];
     Some(Verdict {
         name: "gate".into(),
-        held: adjusted[worst] >= plan.expect.gate,
+        held: adjusted[worst] >= asked.expect.gate,
         message: format!(
             "smallest of {} p-values is {p:.2e} ({test}, {}), after Holm {:.3}, at least {} wanted",
             p_values.len(),
             place(&r.strategy, &r.scene),
             adjusted[worst],
-            plan.expect.gate
+            asked.expect.gate
         ),
     })
 }

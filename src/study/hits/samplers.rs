@@ -11,10 +11,11 @@ use crate::rays::{LineLaw, SurfaceLines};
 use crate::scene::Scene;
 use crate::stats::holm;
 
-use super::cell::Watcher;
-use super::hits_vs_area::{content, line_seed};
-use super::plan::{Controls, Plan};
-use super::records::{SamplerRecord, Verdict};
+use crate::study::identity::{content, line_seed};
+use crate::study::{LineRule, Watcher};
+
+use super::asked::{Controls, HitsVsArea};
+use crate::study::records::{SamplerRecord, Verdict};
 
 /// Most lines of a scene that are checked.
 const CHECKED: u64 = 1 << 18;
@@ -26,10 +27,10 @@ const OWN: &str = "study";
 const SIDES: DVec3 = DVec3::new(1.0, 0.8, 0.5);
 
 /// The run's own lines through every scene's box, checked.
-pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
+pub fn check_scenes(seed: u64, lines: LineRule, scenes: &[Scene]) -> Vec<SamplerRecord> {
     let check = |scene: &Scene| {
-        let n = plan.lines.at_least().min(CHECKED);
-        let (world, seed) = (scene.world, line_seed(plan.seed, &content(scene)));
+        let n = lines.at_least().min(CHECKED);
+        let (world, seed) = (scene.world, line_seed(seed, &content(scene)));
         let lines: Vec<Line> = SurfaceLines { world, seed }.range(0..n).collect();
         let checks = check_sampler(&world, seed, n, |i| (lines[i as usize], Span::FULL));
         record(OWN, true, &scene.name, n, checks)
@@ -37,21 +38,19 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Vec<SamplerRecord> {
     scenes.iter().map(check).collect()
 }
 
+/// Laws that [`check_laws`] checks.
+pub const LAWS: u64 = (LineLaw::EXACT.len() + LineLaw::WRONG.len()) as u64;
+
 /// Every law there is through one box, checked.
-pub fn check_laws(plan: &Plan, watcher: &impl Watcher) -> Vec<SamplerRecord> {
-    let Some(Controls { lines, .. }) = plan.controls else {
-        return Vec::new();
-    };
+pub fn check_laws(seed: u64, controls: Controls, watcher: &impl Watcher) -> Vec<SamplerRecord> {
+    let lines = controls.lines;
     let world = Aabb::new(DVec3::ZERO, SIDES);
     let name = format!("box {} x {} x {}", SIDES.x, SIDES.y, SIDES.z);
     let laws = LineLaw::EXACT.map(|law| (law, true)).into_iter();
     let laws = laws.chain(LineLaw::WRONG.map(|law| (law, false)));
     let check = |(law, exact): (LineLaw, bool)| {
-        watcher.lines_chosen(lines);
-        let checks = check_sampler(&world, plan.seed, lines, |i| {
-            law.sample(&world, plan.seed, i)
-        });
-        watcher.counted(lines);
+        let checks = check_sampler(&world, seed, lines, |i| law.sample(&world, seed, i));
+        watcher.done(lines);
         record(law.name(), exact, &name, lines, checks)
     };
     laws.map(check).collect()
@@ -72,16 +71,16 @@ fn record(law: &str, exact: bool, scene: &str, lines: u64, p: SamplerChecks) -> 
 }
 
 /// Whether the run's lines passed, and whether the checks told right laws from wrong ones.
-pub fn verdicts(plan: &Plan, records: &[SamplerRecord]) -> Vec<Verdict> {
+pub fn verdicts(asked: &HitsVsArea, records: &[SamplerRecord]) -> Vec<Verdict> {
     let (own, laws): (Vec<&SamplerRecord>, _) = records.iter().partition(|r| r.law == OWN);
-    [own_verdict(plan, &own), law_verdict(plan, &laws)]
+    [own_verdict(asked, &own), law_verdict(asked, &laws)]
         .into_iter()
         .flatten()
         .collect()
 }
 
 /// Holm over the five checks of every scene's lines.
-fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
+fn own_verdict(asked: &HitsVsArea, records: &[&SamplerRecord]) -> Option<Verdict> {
     let names = SamplerChecks::NAMES;
     let named = |r: &&SamplerRecord| {
         let scene = r.scene.clone();
@@ -96,7 +95,7 @@ fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
     let adjusted = holm(&p)[worst];
     Some(Verdict {
         name: "sampler".into(),
-        held: adjusted >= plan.expect.gate,
+        held: adjusted >= asked.expect.gate,
         message: format!(
             "{} checks of the lines ({}): smallest p-value {:.2e} ({}, {}), after Holm {:.3}",
             p.len(),
@@ -110,12 +109,12 @@ fn own_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
 }
 
 /// Wrong laws rejected, exact ones not.
-fn law_verdict(plan: &Plan, records: &[&SamplerRecord]) -> Option<Verdict> {
+fn law_verdict(asked: &HitsVsArea, records: &[&SamplerRecord]) -> Option<Verdict> {
     let Controls {
         lines,
         rejected_below,
         accepted_above,
-    } = plan.controls?;
+    } = asked.controls?;
     let least = |r: &SamplerRecord| r.p_values().into_iter().flatten().fold(1.0, f64::min);
     let passes = |r: &SamplerRecord| {
         if r.exact {

@@ -250,20 +250,25 @@ pub struct Summary {
     pub seed: u64,
     /// The command that repeats the run.
     pub command: String,
-    /// The stop rule of every tree.
-    pub stop: String,
+    /// The stop rule of every tree, if they have one in common.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub stop: Option<String>,
     /// Level of `lo` to `hi` of every estimate.
     pub interval_level: f64,
     /// Level of `lo_all` to `hi_all`, all estimates of the run together.
-    pub family_level: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub family_level: Option<f64>,
     /// True when fewer lines and smaller scenes were used: no figure of it is to be published.
     pub quick: bool,
     /// Slopes this near to 1 are what the run aims to show.
-    pub slope_within: f64,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub slope_within: Option<f64>,
     /// The scene whose nodes the main figure shows.
-    pub figure_scene: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figure_scene: Option<String>,
     /// The strategy whose nodes the main figure shows.
-    pub figure_strategy: String,
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub figure_strategy: Option<String>,
     /// What was expected and whether it held.
     pub verdicts: Vec<Verdict>,
     /// Every estimate with its interval.
@@ -290,6 +295,8 @@ pub struct Estimate {
     pub scene: String,
     /// Strategy.
     pub strategy: String,
+    /// Stop rule.
+    pub stop: String,
     /// Counted value.
     pub value: f64,
     /// Lower end of the 99 % interval.

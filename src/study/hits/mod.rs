@@ -1,0 +1,263 @@
+//! The experiment `hits-vs-area`: MacDonald & Booth's Figure 3 for every node of every tree, and the counts it implies.
+
+pub mod asked;
+pub mod cell;
+pub mod findings;
+pub mod samplers;
+pub mod scores;
+pub mod spread;
+pub mod verdicts;
+
+use serde::{Deserialize, Serialize};
+
+use crate::kd::Rules;
+use crate::scene::Scene;
+use crate::stats::{normal_quantile, simultaneous_quantile};
+
+use super::records::{CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, TimingRecord};
+use super::store::{Store, StoreError, TIMINGS};
+use super::{LEVEL, Plan, RunError, Watcher};
+
+pub use asked::HitsVsArea;
+use cell::{CellPlan, CellResult, measure};
+
+/// The cells of a plan in canonical order: scenes, then strategies.
+fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
+    let mut cells = Vec::new();
+    for scene in scenes {
+        for &strategy in &asked.strategies {
+            let rules = Rules {
+                strategy,
+                stop: asked.stop,
+                cost: plan.cost,
+            };
+            let drawn = scene.name == asked.figure.scene && strategy == asked.figure.strategy;
+            cells.push(CellPlan {
+                nodes: asked.nodes || drawn,
+                ..CellPlan::new(scene, rules, plan.seed, asked.lines)
+            });
+        }
+    }
+    cells
+}
+
+/// A finished cell on disk: the nodes lie beside it.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    result: CellResult,
+    /// Digest of the file of nodes written with it, if one was.
+    nodes_sha256: Option<String>,
+}
+
+fn nodes_file(id: &str) -> String {
+    format!("cells/{id}.nodes.csv")
+}
+
+/// A finished cell, with its nodes if they are needed: taken only if its nodes are those written with it.
+fn finished(store: &Store, cell: &CellPlan) -> Option<CellResult> {
+    let Kept {
+        mut result,
+        nodes_sha256,
+    } = store.finished(&cell.id)?;
+    if cell.nodes {
+        result.nodes = Some(store.read_rows(&nodes_file(&cell.id), Some(&nodes_sha256?))?);
+    }
+    Some(result)
+}
+
+/// Keep a finished cell. Its nodes go first: a cell counts as finished when its JSON is there.
+fn keep(store: &Store, result: &CellResult) -> Result<(), StoreError> {
+    let id = &result.record.cell;
+    let nodes_sha256 = match &result.nodes {
+        Some(nodes) => Some(store.write_rows(&nodes_file(id), nodes)?),
+        None => None,
+    };
+    if let Some(timing) = &result.timing {
+        // Rows of earlier runs stay.
+        let mut rows: Vec<TimingRecord> = store.read_rows(TIMINGS, None).unwrap_or_default();
+        rows.retain(|row| row.cell != *id);
+        rows.push(timing.clone());
+        rows.sort_by(|a, b| a.cell.cmp(&b.cell));
+        store.write_rows(TIMINGS, rows)?;
+    }
+    let result = CellResult {
+        nodes: None,
+        timing: None,
+        ..result.clone()
+    };
+    store.save(
+        id,
+        &Kept {
+            result,
+            nodes_sha256,
+        },
+    )
+}
+
+/// Measure what is not finished and write the files of the run.
+pub(super) fn run(
+    plan: &Plan,
+    asked: &HitsVsArea,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    let planned = cells(plan, asked, scenes);
+    let found: Vec<_> = planned.iter().map(|cell| finished(store, cell)).collect();
+    let controls = asked.controls.map_or(0, |c| samplers::LAWS * c.lines);
+    watcher.expect(planned.len() as u64 * asked.lines.guess() + controls);
+    let already = found.iter().flatten().count();
+    if already > 0 {
+        watcher.note(&format!(
+            "{already} of {} cells were finished by an earlier run (--force measures them again)",
+            planned.len()
+        ));
+    }
+    let left = planned.len() - already;
+    if left > 0 {
+        let s = if left == 1 { "" } else { "s" };
+        watcher.announce(&format!("counting lines through {left} cell{s}"));
+    }
+    let mut results = Vec::new();
+    for (cell, found) in planned.iter().zip(found) {
+        if let Some(found) = found {
+            watcher.skip(asked.lines.guess());
+            results.push(found);
+            continue;
+        }
+        let place = format!("{} {}", cell.scene.name, cell.rules.strategy);
+        watcher.begin(&place);
+        let result = measure(cell, watcher).map_err(|fault| RunError::Bug { place, fault })?;
+        keep(store, &result)?;
+        results.push(result);
+    }
+    let mut laws = samplers::check_scenes(plan.seed, asked.lines, scenes);
+    if let Some(controls) = asked.controls {
+        watcher.begin("laws of lines");
+        laws.extend(samplers::check_laws(plan.seed, controls, watcher));
+    }
+    write(plan, asked, &results, &laws, store)?;
+    Ok(())
+}
+
+/// `timings.csv` without a row: for a run whose cells were all found, but not their seconds.
+const TIMINGS_HEADER: &str = "cell,scene,strategy,build_s,count_s,threads,visits\n";
+
+/// Put the run's files together. The seconds are there already.
+fn write(
+    plan: &Plan,
+    asked: &HitsVsArea,
+    results: &[CellResult],
+    samplers: &[SamplerRecord],
+    store: &Store,
+) -> Result<(), StoreError> {
+    let records: Vec<CellRecord> = results.iter().map(|r| r.record.clone()).collect();
+    store.write_rows("cells.csv", &records)?;
+    store.write_rows("bins.csv", results.iter().flat_map(|r| &r.bins))?;
+    let nodes = results.iter().filter_map(|r| r.nodes.as_ref()).flatten();
+    store.write_rows::<&NodeRecord>("nodes.csv", nodes)?;
+    if store.read_rows::<TimingRecord>(TIMINGS, None).is_none() {
+        store.write(TIMINGS, TIMINGS_HEADER.as_bytes())?;
+    }
+    store.write_rows("samplers.csv", samplers)?;
+    store.write_summary(&summarise(plan, asked, &records, samplers))
+}
+
+/// The cells of a dry run, a line each.
+pub(super) fn describe(plan: &Plan, asked: &HitsVsArea, scenes: &[Scene]) -> String {
+    let line = |cell: &CellPlan| {
+        format!(
+            "{}  {:24} {:24} {:>9} objects, at least {} lines\n",
+            cell.id,
+            cell.scene.name,
+            cell.rules.strategy,
+            cell.scene.bounds.len(),
+            asked.lines.at_least()
+        )
+    };
+    let cells = cells(plan, asked, scenes);
+    let head = format!("stop {}, seed {}\n", asked.stop, plan.seed);
+    head + &cells.iter().map(line).collect::<String>()
+}
+
+/// Estimates of every cell, each with its own interval and one that holds for all together.
+pub fn estimates(cells: &[CellRecord], family: f64) -> Vec<Estimate> {
+    let mut estimates = Vec::new();
+    // Slope, three counts and C of every cell are judged together.
+    let judged = cells.len() * 5;
+    let one = normal_quantile(LEVEL);
+    let all = simultaneous_quantile(1.0 - family, judged);
+    for r in cells {
+        let mut push = |name: &str, value: f64, se: Option<f64>, predicted: f64| {
+            let at = |sigmas: f64| se.map(|se| value + sigmas * se);
+            estimates.push(Estimate {
+                name: name.into(),
+                scene: r.scene.clone(),
+                strategy: r.strategy.clone(),
+                stop: r.stop.clone(),
+                value,
+                lo: at(-one),
+                hi: at(one),
+                se,
+                n: r.lines,
+                predicted,
+                lo_all: at(-all),
+                hi_all: at(all),
+            });
+        };
+        if let Some(slope) = r.slope {
+            push("slope", slope, r.slope_se, 1.0);
+        }
+        push("n_K", r.n_k_counted, r.n_k_se, r.n_k_predicted);
+        push("n_B", r.n_b_counted, r.n_b_se, r.n_b_predicted);
+        push("n_t", r.n_t_counted, r.n_t_se, r.n_t_predicted);
+        push("C", r.c_counted, r.c_se, r.c_predicted);
+    }
+    estimates
+}
+
+/// The run's answer: estimates with intervals, and whether the expectations held.
+fn summarise(
+    plan: &Plan,
+    asked: &HitsVsArea,
+    cells: &[CellRecord],
+    samplers: &[SamplerRecord],
+) -> Summary {
+    let estimates = estimates(cells, asked.expect.family);
+    Summary {
+        stop: Some(asked.stop.to_string()),
+        slope_within: Some(asked.expect.slope_within),
+        figure_scene: Some(asked.figure.scene.clone()),
+        figure_strategy: Some(asked.figure.strategy.name()),
+        family_level: Some(1.0 - asked.expect.family),
+        verdicts: verdicts::all(asked, cells, samplers, &estimates),
+        estimates,
+        ..plan.summary()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_header_of_the_seconds_is_that_of_a_row() {
+        let row = TimingRecord {
+            cell: "c".into(),
+            scene: "s".into(),
+            strategy: "sah".into(),
+            build_s: 1.0,
+            count_s: 2.0,
+            threads: 3,
+            visits: 4,
+        };
+        let mut writer = csv::Writer::from_writer(Vec::new());
+        writer.serialize(row).expect("a flat record");
+        let written = writer.into_inner().expect("writing to memory");
+        assert!(written.starts_with(TIMINGS_HEADER.as_bytes()));
+        let dictionary = include_str!("../../../data/README.md");
+        for column in TIMINGS_HEADER.trim_end().split(',') {
+            assert!(dictionary.contains(&format!("`{column}`")), "{column}");
+        }
+    }
+}
