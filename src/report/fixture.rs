@@ -115,7 +115,7 @@ pub fn nodes(cell: &CellRecord, count: u64, least: f64) -> Vec<NodeRecord> {
 /// A summary whose figure shows the cell of `scene` and `sah`.
 pub fn summary(scene: &str) -> Summary {
     Summary {
-        schema: crate::study::SCHEMA,
+        schema: 2,
         experiment: "test".to_owned(),
         kind: "hits-vs-area".to_owned(),
         question: "a question".to_owned(),
