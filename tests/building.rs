@@ -155,6 +155,72 @@ fn stop_rules_stop_where_they_say() {
     assert!(cost.cost(by_gain.n_k, by_gain.n_b, by_gain.n_t) < cost.leaf(500.0));
 }
 
+/// The rule `automatic`, replayed on the finished tree by counting objects against boxes: every inner node was to be
+/// cut, every leaf had a reason.
+#[test]
+fn automatic_counts_the_planes_of_little_gain() {
+    let cost = rules(Strategy::Sah, "automatic").cost;
+    let mut reasons = [0; 3];
+    for strategy in Strategy::ALL {
+        let bounds = random_boxes(1000, 15);
+        let tree = tree(&bounds, strategy, "automatic");
+        let inside = |node: usize| -> Vec<usize> {
+            let found = tree.boxes[node];
+            let meets = |b: &Aabb| (0..3).all(|k| b.lo[k] < found.hi[k] && b.hi[k] > found.lo[k]);
+            (0..bounds.len()).filter(|&i| meets(&bounds[i])).collect()
+        };
+        // 1.2 log2 1000 + 2 = 13.96: depth 14, three failures.
+        let mut work = vec![(0, 0, 0)];
+        while let Some((node, depth, failures)) = work.pop() {
+            let n = inside(node).len() as f64;
+            match tree.nodes[node].kind() {
+                NodeKind::Inner { left, .. } => {
+                    let left = left as usize;
+                    let p =
+                        |i: usize| tree.boxes[i].surface_area() / tree.boxes[node].surface_area();
+                    let count = |i: usize| inside(i).len() as f64;
+                    let split = cost.split(p(left), count(left), p(left + 1), count(left + 1));
+                    let failures = failures + usize::from(split > 0.75 * cost.leaf(n));
+                    assert!(
+                        failures <= 3 && depth < 14 && n > 0.0,
+                        "{strategy}, node {node}"
+                    );
+                    work.extend([left, left + 1].map(|i| (i, depth + 1, failures)));
+                }
+                NodeKind::Leaf { .. } if n == 0.0 => reasons[0] += 1,
+                NodeKind::Leaf { .. } if depth == 14 => reasons[1] += 1,
+                NodeKind::Leaf { .. } if failures == 3 => {
+                    reasons[2] += 1;
+                    // Here the next plane is known: it would have been the fourth of little gain.
+                    if strategy == Strategy::SpatialMedian {
+                        let (axis, whole) = (depth % 3, &tree.boxes[node]);
+                        let s = whole.centre()[axis];
+                        let (l, r) = whole.split(axis, s);
+                        let p = |b: Aabb| b.surface_area() / whole.surface_area();
+                        let held = inside(node);
+                        let below = held.iter().filter(|&&i| bounds[i].lo[axis] < s).count() as f64;
+                        let above = held.iter().filter(|&&i| bounds[i].hi[axis] > s).count() as f64;
+                        let useless = below == n && above == n;
+                        assert!(
+                            useless || cost.split(p(l), below, p(r), above) > 0.75 * cost.leaf(n)
+                        );
+                    }
+                }
+                // No candidate: every plane would keep all on both sides.
+                NodeKind::Leaf { .. } => {
+                    let covers = |&i: &usize| bounds[i].contains(&tree.boxes[node]);
+                    let no_bound_inside = inside(node).iter().all(covers);
+                    assert!(
+                        strategy != Strategy::Sah || no_bound_inside,
+                        "{strategy}, leaf {node} at depth {depth} after {failures} failures"
+                    );
+                }
+            }
+        }
+    }
+    assert!(reasons.iter().all(|&n| n > 10), "{reasons:?}");
+}
+
 /// A naive builder's choice: every candidate of strategy 3 counted from scratch.
 #[test]
 fn the_sweep_finds_what_exhaustive_search_finds() {

@@ -20,7 +20,7 @@ pub struct Rules {
     pub strategy: Strategy,
     /// When to stop.
     pub stop: StopRule,
-    /// What steps cost: read by the cost-driven strategies and by the rule `cost-gain`.
+    /// What steps cost: read by the cost-driven strategies and by the rules `cost-gain` and `automatic`.
     pub cost: CostModel,
 }
 
@@ -53,7 +53,8 @@ pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
         sides: vec![0; bounds.len()],
         centres: Vec::new(),
     };
-    builder.grow(0, 0, Region::default());
+    let patience = rules.stop.patience(bounds.len());
+    builder.grow(0, Path { depth: 0, patience }, Region::default());
     builder.tree
 }
 
@@ -62,6 +63,14 @@ pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
 struct Region {
     objects: usize,
     events: [usize; 3],
+}
+
+/// What the way from the root to a node leaves to the stop rule.
+#[derive(Clone, Copy)]
+struct Path {
+    depth: usize,
+    /// Planes of little gain still allowed, see [`StopRule::patience`].
+    patience: usize,
 }
 
 struct Builder<'a> {
@@ -85,11 +94,15 @@ const RIGHT: u8 = 2;
 
 impl Builder<'_> {
     /// Make node `node` and all below it from the lists on top of the arenas.
-    fn grow(&mut self, node: usize, depth: usize, region: Region) {
+    fn grow(&mut self, node: usize, path: Path, region: Region) {
         let bounds = self.tree.boxes[node];
-        let Some(split) = self.choose(&bounds, depth, region) else {
-            self.make_leaf(node, depth, region);
+        let Some((split, patience)) = self.choose(&bounds, path, region) else {
+            self.make_leaf(node, path.depth, region);
             return;
+        };
+        let below = Path {
+            depth: path.depth + 1,
+            patience,
         };
         // Both children side by side, then their subtrees, the left one first.
         let left = self.tree.nodes.len();
@@ -101,12 +114,12 @@ impl Builder<'_> {
 
         // The right lists replace the node's own, the left ones go on top.
         let (top, kept) = self.distribute(&split, region);
-        self.grow(left, depth + 1, top);
+        self.grow(left, below, top);
         self.objects.truncate(kept.objects);
         for axis in 0..3 {
             self.events[axis].truncate(kept.events[axis]);
         }
-        self.grow(left + 1, depth + 1, region);
+        self.grow(left + 1, below, region);
     }
 
     fn make_leaf(&mut self, node: usize, depth: usize, region: Region) {
@@ -121,8 +134,8 @@ impl Builder<'_> {
         self.tree.depth = self.tree.depth.max(depth);
     }
 
-    /// The plane to cut with, or `None` for a leaf.
-    fn choose(&mut self, bounds: &Aabb, depth: usize, region: Region) -> Option<Split> {
+    /// The plane to cut with and the patience left below it, or `None` for a leaf.
+    fn choose(&mut self, bounds: &Aabb, path: Path, region: Region) -> Option<(Split, usize)> {
         let Rules {
             strategy,
             stop,
@@ -130,13 +143,13 @@ impl Builder<'_> {
         } = *self.rules;
         let n = self.objects.len() - region.objects;
         let share = bounds.surface_area() / self.root_area;
-        if depth >= self.depth_bound || stop.stops_at(n, share) {
+        if path.depth >= self.depth_bound || stop.stops_at(n, share) {
             return None;
         }
         let (order, positions) = strategy.parts();
         let all_compete = order == super::strategy::AxisOrder::All;
         let mut best: Option<Split> = None;
-        for axis in order.axes(depth, bounds) {
+        for axis in order.axes(path.depth, bounds) {
             let candidate = self.cheapest(bounds, axis, region, positions);
             if let Some(split) = candidate
                 && best.is_none_or(|b| split.cost < b.cost)
@@ -147,9 +160,9 @@ impl Builder<'_> {
                 break;
             }
         }
-        let too_dear =
-            |s: &Split| matches!(stop, StopRule::CostGain { .. }) && s.cost >= cost.leaf(n as f64);
-        best.filter(|s| !too_dear(s))
+        let split = best?;
+        let patience = stop.cuts(split.cost, cost.leaf(n as f64), path.patience)?;
+        Some((split, patience))
     }
 
     /// The strategy's cheapest plane on one axis.

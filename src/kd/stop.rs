@@ -35,12 +35,26 @@ pub enum StopRule {
         /// Depth bound; without one see [`default_depth`].
         depth: Option<u32>,
     },
+    /// `automatic[:D]`: when the path from the root has had its share of planes that gain little (Havran & Bittner 2002):
+    /// of those whose one-level cost is above 3/4 of the leaf's it may have 1 + D/5, rounded down.
+    Automatic {
+        /// Depth bound; without one see [`automatic_depth`].
+        depth: Option<u32>,
+    },
 }
 
 /// Depth bound where a rule names none: 8 + 1.3 floor(log2 N), rounded, as in pbrt (3rd edition, 4.4.1).
 pub fn default_depth(objects: usize) -> usize {
     8 + (13 * objects.max(1).ilog2() as usize + 5) / 10
 }
+
+/// Depth bound of the rule `automatic` where it names none: 1.2 log2 N + 2, rounded (Havran & Bittner 2002).
+pub fn automatic_depth(objects: usize) -> usize {
+    libm::round(1.2 * libm::log2(objects.max(1) as f64) + 2.0) as usize
+}
+
+/// A plane whose one-level cost is above this share of the leaf's gains little: the rule `automatic` counts it.
+const LITTLE_GAIN: f64 = 0.75;
 
 /// Largest depth bound of any rule. It bounds the traversal stack (one entry a level) and the recursion of the builder;
 /// the number of nodes is bounded by the objects, as these rules stop at empty nodes.
@@ -58,6 +72,17 @@ impl StopRule {
             Self::Objects { depth, .. } | Self::CostK { depth, .. } | Self::CostGain { depth } => {
                 depth.map_or_else(|| default_depth(objects), |d| d as usize)
             }
+            Self::Automatic { depth } => {
+                depth.map_or_else(|| automatic_depth(objects), |d| d as usize)
+            }
+        }
+    }
+
+    /// Planes of little gain that a path from the root may have: [`cuts`](Self::cuts) uses them up.
+    pub(super) fn patience(self, objects: usize) -> usize {
+        match self {
+            Self::Automatic { .. } => 1 + self.depth_bound(objects) / 5,
+            _ => 0,
         }
     }
 
@@ -67,7 +92,17 @@ impl StopRule {
             Self::Depth(_) => false,
             Self::Objects { limit, .. } => n <= limit as usize,
             Self::CostK { k, .. } => n as f64 * share <= k,
-            Self::CostGain { .. } => n == 0,
+            Self::CostGain { .. } | Self::Automatic { .. } => n == 0,
+        }
+    }
+
+    /// Whether a node is cut by its chosen plane, of one-level cost `split`, where a leaf would cost `leaf`: the patience
+    /// left below it, or `None` for a leaf.
+    pub(super) fn cuts(self, split: f64, leaf: f64, patience: usize) -> Option<usize> {
+        match self {
+            Self::CostGain { .. } => (split < leaf).then_some(patience),
+            Self::Automatic { .. } if split > LITTLE_GAIN * leaf => patience.checked_sub(1),
+            _ => Some(patience),
         }
     }
 }
@@ -88,6 +123,10 @@ impl fmt::Display for StopRule {
                 write!(f, "cost-gain")?;
                 depth
             }
+            Self::Automatic { depth } => {
+                write!(f, "automatic")?;
+                depth
+            }
         };
         depth.map_or(Ok(()), |d| write!(f, ":{d}"))
     }
@@ -99,8 +138,8 @@ impl FromStr for StopRule {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D] or cost-gain[:D] \
-                 with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH} (of depth:D at most {MAX_FULL_DEPTH}, a full \
+                "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D], cost-gain[:D] or \
+                 automatic[:D] with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH} (of depth:D at most {MAX_FULL_DEPTH}, a full \
                  tree of 2^{} nodes), e.g. objects:2:16",
                 MAX_FULL_DEPTH + 1
             )
@@ -111,10 +150,9 @@ impl FromStr for StopRule {
             Ok(d) if d <= most => Ok(d),
             _ => Err(wrong()),
         };
-        let parameter = if rule == "cost-gain" {
-            None
-        } else {
-            Some(parts.next().ok_or_else(wrong)?)
+        let parameter = match rule {
+            "cost-gain" | "automatic" => None,
+            _ => Some(parts.next().ok_or_else(wrong)?),
         };
         let depth = parts
             .next()
@@ -136,6 +174,7 @@ impl FromStr for StopRule {
                 _ => Err(wrong()),
             },
             ("cost-gain", None) => Ok(Self::CostGain { depth }),
+            ("automatic", None) => Ok(Self::Automatic { depth }),
             _ => Err(wrong()),
         }
     }
@@ -171,6 +210,8 @@ mod tests {
             "cost-k:3",
             "cost-gain",
             "cost-gain:40",
+            "automatic",
+            "automatic:16",
         ] {
             let rule: StopRule = text.parse().expect(text);
             assert_eq!(rule.to_string(), text);
@@ -187,6 +228,8 @@ mod tests {
             "cost-k:inf",
             "cost-gain:x",
             "objects:2:16:1",
+            "automatic:129",
+            "automatic:",
         ] {
             assert!(text.parse::<StopRule>().is_err(), "{text}");
         }
@@ -198,5 +241,24 @@ mod tests {
             [1, 1_000, 10_000, 100_000].map(default_depth),
             [8, 20, 25, 29]
         );
+    }
+
+    #[test]
+    fn automatic_depths_and_patience_are_havrans() {
+        // 1.2 log2 N + 2 = 2, 13.96, 17.95, 21.93; one failure and one more for every five levels.
+        let rule = StopRule::Automatic { depth: None };
+        let found = [1, 1_000, 10_000, 100_000].map(|n| (rule.depth_bound(n), rule.patience(n)));
+        assert_eq!(found, [(2, 1), (14, 3), (18, 4), (22, 5)]);
+    }
+
+    #[test]
+    fn patience_is_for_planes_of_little_gain() {
+        let rule = StopRule::Automatic { depth: None };
+        assert_eq!(rule.cuts(75.0, 100.0, 0), Some(0));
+        assert_eq!(rule.cuts(76.0, 100.0, 0), None);
+        assert_eq!(rule.cuts(176.0, 100.0, 2), Some(1));
+        let gain = StopRule::CostGain { depth: None };
+        assert_eq!(gain.cuts(100.0, 100.0, 0), None);
+        assert_eq!(gain.cuts(99.0, 100.0, 0), Some(0));
     }
 }

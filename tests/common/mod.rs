@@ -81,10 +81,11 @@ pub fn hard_lines(bounds: &[Aabb], n: usize) -> Vec<Line> {
 }
 
 /// Strategies and stop rules that property tests go over.
-pub const STOPS: [&str; 5] = [
+pub const STOPS: [&str; 6] = [
     "objects:2:16",
     "objects:1",
     "cost-gain",
+    "automatic",
     "cost-k:0.5",
     "depth:6",
 ];

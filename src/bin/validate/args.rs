@@ -81,7 +81,8 @@ pub enum Command {
         /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply or .off file.
         #[arg(value_name = "SCENE")]
         scene: String,
-        /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]` or `cost-gain[:D]`.
+        /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]` or
+        /// `automatic[:D]`.
         #[arg(long, default_value = "cost-gain", value_name = "RULE")]
         stop: sahlab::kd::StopRule,
     },
