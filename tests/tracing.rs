@@ -6,7 +6,10 @@ mod common;
 use common::rules;
 use glam::DVec3;
 use sahlab::geom::{Line, Objects, Ray, Span};
-use sahlab::kd::{Hit, NodeKind, Stack, Strategy, Tree, build, nearest};
+use sahlab::kd::traverse::occluded_watched;
+use sahlab::kd::{
+    Hit, NodeKind, Probe, Stack, Strategy, Tracing, Tree, Work, build, nearest, occluded, traverse,
+};
 use sahlab::rays::{SurfaceLines, Uniforms};
 use sahlab::scene::Scene;
 
@@ -111,6 +114,67 @@ fn nearest_hits_are_brute_forces() {
         assert!(
             10 * hits > all,
             "{name}: {hits} hits of {all} rays: too few to mean anything"
+        );
+    }
+}
+
+/// The leaves of a traversal, in order.
+#[derive(Default)]
+struct Leaves(Vec<u32>);
+
+impl Probe for Leaves {
+    fn leaf(&mut self, node: u32, _: u32) {
+        self.0.push(node);
+    }
+}
+
+#[test]
+fn any_hits_are_brute_forces_and_end_at_the_first_object() {
+    for name in ["spd:tetra:4", "simple:mixture:400", "simple:soup:300"] {
+        let scene = Scene::load(name).unwrap();
+        let (mut blocked, mut free) = (0, 0);
+        for strategy in Strategy::ALL {
+            let tree = build(&scene.bounds, scene.world, &rules(strategy, "cost-gain"));
+            let mut stack = Stack::default();
+            for mut ray in rays(&scene, &tree, 200) {
+                // Whole, and cut short just before, at and behind the nearest hit.
+                let hit = brute_force(&scene.objects, &ray);
+                let ends = hit.map(|h| [0.999, 1.0, 1.5].map(|f| h.t * f));
+                for end in ends.iter().flatten().chain([&ray.span.t1.clone()]) {
+                    ray.span.t1 = *end;
+                    let expected = brute_force(&scene.objects, &ray).is_some();
+                    let found = occluded(&tree, &scene.objects, &ray, &mut stack);
+                    assert_eq!(found, expected, "{name} {strategy}: {ray:?}");
+                    blocked += usize::from(found);
+                    free += usize::from(!found);
+
+                    // The same leaves as without an end, up to the first object that is hit.
+                    let mut all = Leaves::default();
+                    let endless = |_: &[u32]| f64::INFINITY;
+                    traverse::<Tracing>(&tree, &ray.line, ray.span, &mut stack, &mut all, endless);
+                    let (mut leaves, mut tests) = (0, 0);
+                    'search: for &leaf in &all.0 {
+                        leaves += 1;
+                        let NodeKind::Leaf { first, count } = tree.nodes[leaf as usize].kind()
+                        else {
+                            panic!("a leaf is a leaf");
+                        };
+                        for &object in tree.objects(first, count) {
+                            tests += 1;
+                            if scene.objects.intersect(object, &ray).is_some() {
+                                break 'search;
+                            }
+                        }
+                    }
+                    let mut work = Work::default();
+                    occluded_watched(&tree, &scene.objects, &ray, &mut stack, &mut work);
+                    assert_eq!((work.leaves, work.tests), (leaves, tests));
+                }
+            }
+        }
+        assert!(
+            blocked > 1000 && free > 1000,
+            "{name}: {blocked} {free}: too few to mean anything"
         );
     }
 }

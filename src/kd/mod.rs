@@ -21,5 +21,5 @@ pub use predict::{Prediction, predict};
 pub use probe::{NoProbe, Probe, Work};
 pub use stop::StopRule;
 pub use strategy::Strategy;
-pub use traverse::{Counting, Hit, Mode, Stack, Tracing, nearest, traverse};
+pub use traverse::{Counting, Hit, Mode, Stack, Tracing, nearest, occluded, traverse};
 pub use tree::{Node, NodeKind, Tree};

@@ -8,6 +8,9 @@ pub trait Probe {
     /// A leaf with this many objects is visited, each of which is tested.
     #[inline(always)]
     fn leaf(&mut self, _node: u32, _objects: u32) {}
+    /// The traversal ended within the last leaf, as an any-hit does: this many of its objects were not tested after all.
+    #[inline(always)]
+    fn untested(&mut self, _objects: u32) {}
 }
 
 /// Watches nothing: for production and timing.
@@ -37,6 +40,11 @@ impl Probe for Work {
         self.leaves += 1;
         self.tests += u64::from(objects);
     }
+
+    #[inline(always)]
+    fn untested(&mut self, objects: u32) {
+        self.tests -= u64::from(objects);
+    }
 }
 
 impl std::ops::AddAssign for Work {
@@ -60,6 +68,12 @@ impl<A: Probe, B: Probe> Probe for (A, B) {
         self.0.leaf(node, objects);
         self.1.leaf(node, objects);
     }
+
+    #[inline(always)]
+    fn untested(&mut self, objects: u32) {
+        self.0.untested(objects);
+        self.1.untested(objects);
+    }
 }
 
 impl<P: Probe> Probe for &mut P {
@@ -71,5 +85,10 @@ impl<P: Probe> Probe for &mut P {
     #[inline(always)]
     fn leaf(&mut self, node: u32, objects: u32) {
         (**self).leaf(node, objects);
+    }
+
+    #[inline(always)]
+    fn untested(&mut self, objects: u32) {
+        (**self).untested(objects);
     }
 }

@@ -163,3 +163,35 @@ pub fn nearest_watched(
     });
     best
 }
+
+/// Whether the ray hits any object within its span: what a shadow ray asks.
+pub fn occluded(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> bool {
+    occluded_watched(tree, objects, ray, stack, NoProbe)
+}
+
+/// As [`occluded`], with a probe. Leaves come front to back, their objects in the order of the references; the first
+/// object hit ends it, however far its hit.
+#[inline]
+pub fn occluded_watched(
+    tree: &Tree,
+    objects: &Objects,
+    ray: &Ray,
+    stack: &mut Stack,
+    mut probe: impl Probe,
+) -> bool {
+    let mut untested = None;
+    traverse::<Tracing>(tree, &ray.line, ray.span, stack, &mut probe, |in_leaf| {
+        if untested.is_none() {
+            let hit = |&object: &u32| objects.intersect(object, ray).is_some();
+            untested = in_leaf.iter().position(hit).map(|i| in_leaf.len() - 1 - i);
+        }
+        match untested {
+            Some(_) => f64::NEG_INFINITY,
+            None => f64::INFINITY,
+        }
+    });
+    if let Some(objects) = untested {
+        probe.untested(objects as u32);
+    }
+    untested.is_some()
+}
