@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::Axis;
+use super::{Aabb, Axis};
 
 /// Relative widening of plane parameters when tracing: 6 units in the last place.
 ///
@@ -139,6 +139,14 @@ impl Ray {
             q[ky] - self.shear.y * q[kz],
             self.shear.z * q[kz],
         )
+    }
+
+    /// The ray's span of an object's own box, widened as in tracing; `None` if it misses the box, or if none of that span
+    /// is in the ray's range. A hit kept inside is found through any tree.
+    #[inline]
+    pub(super) fn within(&self, own: &Aabb) -> Option<Span> {
+        let span = own.clip_conservative(&self.line, Span::FULL)?;
+        (span.t0 <= self.span.t1 && span.t1 >= self.span.t0).then_some(span)
     }
 
     /// Whether t lies in the ray's range.

@@ -90,7 +90,7 @@ impl Random {
             -half - side,
             half - side,
         ];
-        Polygon::new(corners.map(|c| centre + c).into()).expect("a regular hexagon is convex")
+        Polygon::new(corners.map(|c| centre + c).into()).expect("a hexagon is a polygon")
     }
 }
 

@@ -65,7 +65,7 @@ pub(super) fn objects(n: usize, mut random: Random) -> Objects {
 }
 
 fn polygon(corners: [DVec3; 4]) -> Polygon {
-    Polygon::new(corners.into()).expect("a rectangle is convex")
+    Polygon::new(corners.into()).expect("a rectangle is a polygon")
 }
 
 /// The roof and the four walls of a box, seen counter-clockwise from outside.

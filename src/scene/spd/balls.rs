@@ -17,7 +17,7 @@ pub(super) fn objects(size: usize) -> Objects {
     grow(size, root, DVec3::Z, &directions(), &mut spheres);
     Objects {
         spheres,
-        polygons: vec![Polygon::new(floor.into()).expect("a square is convex")],
+        polygons: vec![Polygon::new(floor.into()).expect("a square is a polygon")],
         ..Objects::default()
     }
 }
