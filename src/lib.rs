@@ -5,8 +5,8 @@
 //! (n_B) and object tests (n_t) a line meets in a kd-tree, and the tree's cost C = c_K n_K + c_B n_B + c_t n_t. This
 //! library builds the trees, draws the lines, counts, and compares, with an error beside every number.
 //!
-//! The layers, each using only those before it: [`geom`] and [`cost`]; [`scene`]; [`rays`]; [`kd`]; [`stats`];
-//! [`study`]; [`report`].
+//! The layers, each using only those before it: [`geom`] and [`cost`]; [`scene`]; [`rays`]; [`kd`]; [`tracer`];
+//! [`stats`]; [`study`]; [`report`].
 
 pub mod cost;
 pub mod files;
@@ -17,6 +17,7 @@ pub mod report;
 pub mod scene;
 pub mod stats;
 pub mod study;
+pub mod tracer;
 
 /// Twelve hex digits that stand for this program's sources and locked dependencies.
 pub const REVISION: &str = env!("SAHLAB_REVISION");
