@@ -5,7 +5,7 @@ mod common;
 
 use common::rules;
 use glam::DVec3;
-use sahlab::geom::{Line, Objects, Ray, Span};
+use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere};
 use sahlab::kd::traverse::occluded_watched;
 use sahlab::kd::{
     Hit, NodeKind, Probe, Stack, Strategy, Tracing, Tree, Work, build, nearest, occluded, traverse,
@@ -20,7 +20,8 @@ fn brute_force(objects: &Objects, ray: &Ray) -> Option<Hit> {
     })
 }
 
-/// A point of an object that structured rays go for: a corner or an edge's middle, or a pole of a sphere.
+/// A point of an object that structured rays go for: a corner or an edge's middle, a pole of a sphere, the rim of a cone or
+/// the middle of its side.
 fn target(objects: &Objects, i: usize) -> DVec3 {
     let corner = |corners: &[DVec3]| {
         let a = corners[i % corners.len()];
@@ -30,14 +31,24 @@ fn target(objects: &Objects, i: usize) -> DVec3 {
             0.5 * (a + corners[(i + 1) % corners.len()])
         }
     };
-    let i = i % objects.len();
-    if let Some(t) = objects.triangles.get(i) {
-        return corner(&t.0);
-    }
-    let i = i - objects.triangles.len();
-    match objects.spheres.get(i) {
-        Some(s) => s.centre + s.radius * DVec3::AXES[i % 3],
-        None => corner(objects.polygons[i - objects.spheres.len()].corners()),
+    match objects.get((i % objects.len()) as u32) {
+        Object::Triangle(t) => corner(&t.0),
+        Object::Polygon(p) => corner(p.corners()),
+        Object::Sphere(s) => s.centre + s.radius * DVec3::AXES[i % 3],
+        Object::Cone(c) => {
+            let across = (c.apex - c.base)
+                .cross(DVec3::AXES[i % 3])
+                .normalize_or_zero();
+            let rim = [
+                c.base + c.base_radius * across,
+                c.apex + c.apex_radius * across,
+            ];
+            if i.is_multiple_of(2) {
+                rim[i / 2 % 2]
+            } else {
+                0.5 * (rim[0] + rim[1])
+            }
+        }
     }
 }
 
@@ -86,17 +97,57 @@ fn rays(scene: &Scene, tree: &Tree, n: usize) -> Vec<Ray> {
     rays
 }
 
+/// Cylinders along axes with spheres at their ends, tapering branches of any direction, tiny ones, and a large floor.
+fn joints(n: usize, seed: u64) -> Scene {
+    let mut uniforms = Uniforms::starting_at(seed, 0);
+    let mut objects = Objects::default();
+    for i in 0..n {
+        let [x, y, z, w] = uniforms.next4();
+        let [a, b, c, taper] = uniforms.next4();
+        let base = (8.0 * DVec3::new(x, y, z)).round() / 8.0;
+        let towards = DVec3::new(a, b, c) - DVec3::splat(0.5);
+        let (axis, radius, apex) = match i % 4 {
+            0 => (0.25 * DVec3::AXES[i / 4 % 3], 0.02, 0.02),
+            1 => (0.5 * towards, 0.05 * w, 0.05 * w * taper),
+            2 => (0.5 * towards, 0.03, 0.0),
+            _ => (0.01 * towards, 2.5e-4, 2e-4),
+        };
+        objects.cones.push(Cone {
+            base,
+            base_radius: radius,
+            apex: base + axis,
+            apex_radius: apex,
+        });
+        objects.spheres.push(Sphere {
+            centre: base,
+            radius,
+        });
+    }
+    let floor = [
+        [-9.0, -9.0],
+        [9.0, -9.0],
+        [9.0, 9.0],
+        [1.0, 1.0],
+        [-9.0, 9.0],
+    ];
+    let floor = floor.map(|[x, y]| DVec3::new(x, y, 0.0));
+    objects.polygons.push(Polygon::new(floor.into()).unwrap());
+    Scene::new("joints", objects, Vec::new()).unwrap()
+}
+
 #[test]
 fn nearest_hits_are_brute_forces() {
-    for name in [
+    let named = [
         "spd:tetra:4",
         "spd:balls:2",
         "simple:mixture:400",
         "simple:flat:300",
         "simple:overlapping:40",
         "simple:soup:300",
-    ] {
-        let scene = Scene::load(name).unwrap();
+    ];
+    let named = named.map(|name| Scene::load(name).unwrap());
+    for scene in named.into_iter().chain([joints(60, 1), joints(200, 2)]) {
+        let name = &scene.name;
         let (mut all, mut hits) = (0, 0);
         for strategy in Strategy::ALL {
             for stop in ["objects:1", "cost-gain"] {

@@ -11,7 +11,7 @@ mod triangle;
 pub use aabb::Aabb;
 pub use cone::Cone;
 pub use line::{Line, PADDING, Ray, Span};
-pub use objects::Objects;
+pub use objects::{Object, Objects};
 pub use polygon::Polygon;
 pub use sphere::Sphere;
 pub use triangle::Triangle;

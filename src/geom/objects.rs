@@ -28,48 +28,74 @@ impl Objects {
         self.len() == 0
     }
 
+    /// Object `number`; it must exist.
+    #[inline]
+    pub fn get(&self, number: u32) -> Object<'_> {
+        let mut i = number as usize;
+        if let Some(triangle) = self.triangles.get(i) {
+            return Object::Triangle(triangle);
+        }
+        i -= self.triangles.len();
+        if let Some(sphere) = self.spheres.get(i) {
+            return Object::Sphere(sphere);
+        }
+        i -= self.spheres.len();
+        if let Some(cone) = self.cones.get(i) {
+            return Object::Cone(cone);
+        }
+        Object::Polygon(&self.polygons[i - self.cones.len()])
+    }
+
     /// The box of every object, in the order of their numbers.
     pub fn bounds(&self) -> Vec<Aabb> {
-        let mut all = Vec::with_capacity(self.len());
-        all.extend(self.triangles.iter().map(Triangle::bounds));
-        all.extend(self.spheres.iter().map(Sphere::bounds));
-        all.extend(self.cones.iter().map(Cone::bounds));
-        all.extend(self.polygons.iter().map(Polygon::bounds));
-        all
+        (0..self.len() as u32)
+            .map(|number| self.get(number).bounds())
+            .collect()
     }
 
     /// Parameter of the ray's first hit with object `number`, or `None`.
     #[inline]
     pub fn intersect(&self, number: u32, ray: &Ray) -> Option<f64> {
-        let mut i = number as usize;
-        if let Some(triangle) = self.triangles.get(i) {
-            return triangle.intersect(ray);
+        match self.get(number) {
+            Object::Triangle(triangle) => triangle.intersect(ray),
+            Object::Sphere(sphere) => sphere.intersect(ray),
+            Object::Cone(cone) => cone.intersect(ray),
+            Object::Polygon(polygon) => polygon.intersect(ray),
         }
-        i -= self.triangles.len();
-        if let Some(sphere) = self.spheres.get(i) {
-            return sphere.intersect(ray);
-        }
-        i -= self.spheres.len();
-        if let Some(cone) = self.cones.get(i) {
-            return cone.intersect(ray);
-        }
-        self.polygons[i - self.cones.len()].intersect(ray)
     }
 
     /// The outward normal of object `number` at a point of its surface, not of unit length.
     pub fn normal(&self, number: u32, point: DVec3) -> DVec3 {
-        let mut i = number as usize;
-        if let Some(triangle) = self.triangles.get(i) {
-            return triangle.normal();
+        match self.get(number) {
+            Object::Triangle(triangle) => triangle.normal(),
+            Object::Sphere(sphere) => sphere.normal(point),
+            Object::Cone(cone) => cone.normal(point),
+            Object::Polygon(polygon) => polygon.normal(),
         }
-        i -= self.triangles.len();
-        if let Some(sphere) = self.spheres.get(i) {
-            return point - sphere.centre;
+    }
+}
+
+/// One object of any kind.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Object<'a> {
+    /// A triangle.
+    Triangle(&'a Triangle),
+    /// A sphere.
+    Sphere(&'a Sphere),
+    /// A cone frustum or cylinder.
+    Cone(&'a Cone),
+    /// A planar polygon.
+    Polygon(&'a Polygon),
+}
+
+impl Object<'_> {
+    /// The smallest box around it.
+    pub fn bounds(self) -> Aabb {
+        match self {
+            Self::Triangle(triangle) => triangle.bounds(),
+            Self::Sphere(sphere) => sphere.bounds(),
+            Self::Cone(cone) => cone.bounds(),
+            Self::Polygon(polygon) => polygon.bounds(),
         }
-        i -= self.spheres.len();
-        if let Some(cone) = self.cones.get(i) {
-            return cone.normal(point);
-        }
-        self.polygons[i - self.cones.len()].normal()
     }
 }

@@ -19,10 +19,16 @@ impl Sphere {
         Aabb::new(self.centre - self.radius, self.centre + self.radius)
     }
 
+    /// The outward normal at a point of the surface, not of unit length.
+    pub fn normal(&self, point: DVec3) -> DVec3 {
+        point - self.centre
+    }
+
     /// Parameter of the first hit in the ray's range, or `None`.
     ///
     /// The discriminant is taken from the distance between the centre and the line, not from b^2 - 4ac, which
-    /// cancels for small or far spheres (Haines, Guenther, Akenine-Moeller 2019, Ray Tracing Gems ch. 7).
+    /// cancels for small or far spheres (Haines, Guenther, Akenine-Moeller 2019, Ray Tracing Gems ch. 7). t is kept inside
+    /// the ray's span of the sphere's own box.
     #[inline]
     pub fn intersect(&self, ray: &Ray) -> Option<f64> {
         let d = ray.line.direction;
@@ -35,7 +41,9 @@ impl Sphere {
             return None;
         }
         let half = (remainder / a).sqrt();
+        let own = ray.within(&self.bounds())?;
         [middle - half, middle + half]
+            .map(|t| t.clamp(own.t0, own.t1))
             .into_iter()
             .find(|&t| ray.covers(t))
     }
