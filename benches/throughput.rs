@@ -66,6 +66,7 @@ fn rows(scene: &Scene, stop: &str) -> String {
             strategy,
             stop: stop.parse().expect("a stop rule"),
             cost: CostModel::WALD_HAVRAN,
+            clipped: false,
         };
         build(&scene.bounds, scene.world, &rules)
     };

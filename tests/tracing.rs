@@ -8,7 +8,8 @@ use glam::DVec3;
 use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere};
 use sahlab::kd::traverse::occluded_watched;
 use sahlab::kd::{
-    Hit, NodeKind, Probe, Stack, Strategy, Tracing, Tree, Work, build, nearest, occluded, traverse,
+    Hit, NodeKind, Probe, Rules, Stack, Strategy, Tracing, Tree, Work, build, build_objects,
+    nearest, occluded, traverse,
 };
 use sahlab::rays::{SurfaceLines, Uniforms};
 use sahlab::scene::Scene;
@@ -150,13 +151,22 @@ fn nearest_hits_are_brute_forces() {
         let name = &scene.name;
         let (mut all, mut hits) = (0, 0);
         for strategy in Strategy::ALL {
-            for stop in ["objects:1", "cost-gain"] {
-                let tree = build(&scene.bounds, scene.world, &rules(strategy, stop));
+            for (stop, clipped) in [
+                ("objects:1", false),
+                ("cost-gain", false),
+                ("objects:1", true),
+                ("cost-gain", true),
+            ] {
+                let rules = Rules {
+                    clipped,
+                    ..rules(strategy, stop)
+                };
+                let tree = build_objects(&scene.objects, &scene.bounds, scene.world, &rules);
                 let mut stack = Stack::default();
                 for ray in rays(&scene, &tree, 300) {
                     let expected = brute_force(&scene.objects, &ray);
                     let found = nearest(&tree, &scene.objects, &ray, &mut stack);
-                    assert_eq!(found, expected, "{name} {strategy} {stop}: {ray:?}");
+                    assert_eq!(found, expected, "{name} {rules:?}: {ray:?}");
                     all += 1;
                     hits += usize::from(found.is_some());
                 }

@@ -19,11 +19,14 @@ pub struct Polygon {
     /// The power of two by which the corners are divided before products are taken, so that none leaves f64.
     scale: f64,
     bounds: Aabb,
+    /// Whether the corners lie in one plane but for rounding.
+    flat: bool,
     /// Whether it is known to be strictly convex, so that signs of edge functions suffice.
     convex: bool,
 }
 
-/// What is this small against the longest side counts as zero: the width of all, turns at the corners of a convex polygon.
+/// What is this small against the longest side counts as zero: the width of all, turns at the corners of a convex polygon,
+/// distances from the common plane of a flat one.
 const FLATNESS: f64 = 1e-9;
 
 /// Largest distance from the common plane against the longest side: corners written with six digits are often that far.
@@ -66,8 +69,10 @@ impl Polygon {
         if n > 3 && off_plane > PLANARITY {
             return Err("the corners of the polygon are not in one plane");
         }
+        let flat = off_plane <= FLATNESS;
         Ok(Self {
-            convex: off_plane <= FLATNESS && is_convex(&scaled, unit),
+            flat,
+            convex: flat && is_convex(&scaled, unit),
             corners: corners.into(),
             normal,
             scale,
@@ -83,6 +88,13 @@ impl Polygon {
     /// The smallest box around it.
     pub fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    /// How far corners and hits may lie from their common plane, or `None` if that is more than rounding: the part of such
+    /// a polygon in a box cannot be told.
+    pub(super) fn unevenness(&self) -> Option<f64> {
+        self.flat
+            .then(|| FLATNESS * self.bounds.extent().max_element())
     }
 
     /// Area: half the length of the summed cross products of successive corners. Where a polygon crosses itself, parts

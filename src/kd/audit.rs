@@ -1,6 +1,6 @@
 //! Proof of a tree's invariants from the tree and the objects' boxes, independent of how it was built.
 
-use crate::geom::Aabb;
+use crate::geom::{Aabb, Clipper, Objects, clip_slack};
 
 use super::{NodeKind, Tree};
 
@@ -8,11 +8,22 @@ use super::{NodeKind, Tree};
 ///
 /// Proved: the nodes are one tree in the arena; each box is its parent's cut at the parent's plane, strictly inside; the
 /// root's box is the world and holds every object; references tile their array; an object is in a leaf if and only if the placement rule leads it
-/// there (lying in a plane: on exactly one side); the depth is right.
+/// there (lying in a plane: on exactly one side); the depth is right. An object stands in a leaf at most once.
 pub fn audit(tree: &Tree, bounds: &[Aabb]) -> Result<(), Vec<String>> {
+    audit_over(tree, bounds, None)
+}
+
+/// As [`audit()`], of a tree that was built with clipping: an object may be missing from a leaf that its box reaches if it
+/// has no part there, not even within half the slack that parts are widened by ([`clip_slack`]).
+pub fn audit_clipped(tree: &Tree, objects: &Objects, bounds: &[Aabb]) -> Result<(), Vec<String>> {
+    audit_over(tree, bounds, Some(objects))
+}
+
+fn audit_over(tree: &Tree, bounds: &[Aabb], objects: Option<&Objects>) -> Result<(), Vec<String>> {
     let mut audit = Audit {
         tree,
         bounds,
+        objects,
         faults: Vec::new(),
     };
     if audit.shape() {
@@ -29,6 +40,8 @@ pub fn audit(tree: &Tree, bounds: &[Aabb]) -> Result<(), Vec<String>> {
 struct Audit<'a> {
     tree: &'a Tree,
     bounds: &'a [Aabb],
+    /// The objects if they were clipped.
+    objects: Option<&'a Objects>,
     faults: Vec<String>,
 }
 
@@ -156,6 +169,7 @@ impl Audit<'_> {
 
         // Lead all objects down from the root. Where one lies in a plane, the subtree that has it tells the side.
         let held = self.held_by_subtree();
+        let mut clipper = Clipper::default();
         let mut work: Vec<(usize, Vec<u32>)> = vec![(0, (0..self.bounds.len() as u32).collect())];
         while let Some((i, objects)) = work.pop() {
             match tree.nodes[i].kind() {
@@ -163,11 +177,16 @@ impl Audit<'_> {
                     let mut found = self.held(first, count).to_vec();
                     found.sort_unstable();
                     if found != objects {
-                        let lost = objects
-                            .iter()
-                            .filter(|o| found.binary_search(o).is_err())
+                        let missing = |o: &&u32| found.binary_search(o).is_err();
+                        let missed: Vec<u32> = objects.iter().filter(missing).copied().collect();
+                        let extra = found.len() + missed.len() - objects.len();
+                        let lost = missed
+                            .into_iter()
+                            .filter(|&o| self.has_part(o, i, &mut clipper))
                             .count();
-                        let extra = found.len() + lost - objects.len();
+                        if lost + extra == 0 {
+                            continue;
+                        }
                         self.fault(format!(
                             "leaf {i}: {lost} references lost, {extra} too many"
                         ));
@@ -193,6 +212,17 @@ impl Audit<'_> {
                 }
             }
         }
+    }
+
+    /// Whether the object must be in the leaf that its box reaches.
+    fn has_part(&self, object: u32, leaf: usize, clipper: &mut Clipper) -> bool {
+        let Some(objects) = self.objects else {
+            return true;
+        };
+        let slack = 0.5 * clip_slack(&self.tree.world);
+        objects
+            .clipped_bounds(object, &self.tree.boxes[leaf], slack, clipper)
+            .is_some()
     }
 
     /// What a leaf holds; an empty one may begin anywhere.

@@ -1,13 +1,18 @@
 //! Building a tree in O(N log N): the strategy picks planes, the stop rule ends, everything else is equal for all.
 //!
 //! Placement: an object goes left if lo < s, right if hi > s (so a straddler goes both ways); one lying in the plane goes
-//! to the cheaper side, left on a tie. The tree is a deterministic function of the objects' boxes and the rules.
+//! to the cheaper side, left on a tie. Where the rules clip, a straddler's box is its part's in each node, and it does not
+//! go where it has no part. The tree is a deterministic function of the objects' boxes (clipped: of the objects) and the
+//! rules.
+
+use std::borrow::Cow;
 
 use serde::{Deserialize, Serialize};
 
 use crate::cost::CostModel;
-use crate::geom::{Aabb, Axis};
+use crate::geom::{Aabb, Axis, Objects};
 
+use super::clip::Clipping;
 use super::strategy::Positions;
 use super::sweep::{Event, Split, Sweep, sorted_events};
 use super::{Node, StopRule, Strategy, Tree};
@@ -22,13 +27,38 @@ pub struct Rules {
     pub stop: StopRule,
     /// What steps cost: read by the cost-driven strategies and by the rules `cost-gain` and `automatic`.
     pub cost: CostModel,
+    /// Whether objects that planes cut are clipped to the nodes (see [`build_objects`]).
+    #[serde(default)]
+    pub clipped: bool,
 }
 
 /// Build a tree over objects given by their boxes, with `world` around them all.
 ///
 /// # Panics
-/// If a box is not valid, lies outside `world`, or the tree would need 2^32 nodes or references.
+/// If a box is not valid, lies outside `world`, the rules ask for clipping, or the tree would need 2^32 nodes or
+/// references.
 pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
+    assert!(!rules.clipped, "boxes alone cannot be clipped");
+    build_over(bounds, world, rules, None)
+}
+
+/// As [`build`], of objects with these boxes; if the rules say so, objects are clipped to the nodes.
+///
+/// Clipped, a node knows each object by the bounds of its part there (Havran & Bittner 2002, "split clipping"; Wald &
+/// Havran 2006, "perfect splits"): strategies see these, and an object is in no leaf that only its box reaches. Spheres
+/// and cones are known by their box cut to the node. Parts are taken too large by [`clip_slack`](crate::geom::clip_slack),
+/// so that rounding loses no hit; only a ray that runs in an object's plane up to rounding, whose t is then arbitrary
+/// within the object's box, may find another object before it.
+///
+/// # Panics
+/// As [`build`] does.
+pub fn build_objects(objects: &Objects, bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
+    assert_eq!(objects.len(), bounds.len(), "one box an object");
+    let clipping = rules.clipped.then(|| Clipping::new(objects, &world));
+    build_over(bounds, world, rules, clipping)
+}
+
+fn build_over(bounds: &[Aabb], world: Aabb, rules: &Rules, clipping: Option<Clipping>) -> Tree {
     for (i, b) in bounds.iter().enumerate() {
         assert!(
             b.is_valid() && world.contains(b),
@@ -37,7 +67,7 @@ pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
     }
     let objects = u32::try_from(bounds.len()).expect("more than 2^32 objects");
     let mut builder = Builder {
-        bounds,
+        bounds: Cow::Borrowed(bounds),
         rules,
         depth_bound: rules.stop.depth_bound(bounds.len()),
         root_area: world.surface_area(),
@@ -52,6 +82,7 @@ pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
         events: [0, 1, 2].map(|axis| sorted_events(bounds, axis)),
         sides: vec![0; bounds.len()],
         centres: Vec::new(),
+        clipping,
     };
     let patience = rules.stop.patience(bounds.len());
     builder.grow(0, Path { depth: 0, patience }, Region::default());
@@ -74,7 +105,8 @@ struct Path {
 }
 
 struct Builder<'a> {
-    bounds: &'a [Aabb],
+    /// Every object's box; clipped, that of its part in the node at hand.
+    bounds: Cow<'a, [Aabb]>,
     rules: &'a Rules,
     depth_bound: usize,
     root_area: f64,
@@ -87,10 +119,12 @@ struct Builder<'a> {
     sides: Vec<u8>,
     /// Scratch: centres of clipped bounds.
     centres: Vec<f64>,
+    /// Set where the rules clip.
+    clipping: Option<Clipping<'a>>,
 }
 
-const LEFT: u8 = 1;
-const RIGHT: u8 = 2;
+pub(super) const LEFT: u8 = 1;
+pub(super) const RIGHT: u8 = 2;
 
 impl Builder<'_> {
     /// Make node `node` and all below it from the lists on top of the arenas.
@@ -113,8 +147,12 @@ impl Builder<'_> {
         self.tree.boxes.extend([left_box, right_box]);
 
         // The right lists replace the node's own, the left ones go on top.
+        let waiting = self.clipping.as_ref().map_or(0, Clipping::waiting);
         let (top, kept) = self.distribute(&split, region);
         self.grow(left, below, top);
+        if let Some(clipping) = &mut self.clipping {
+            clipping.turn_right(waiting, self.bounds.to_mut());
+        }
         self.objects.truncate(kept.objects);
         for axis in 0..3 {
             self.events[axis].truncate(kept.events[axis]);
@@ -140,6 +178,7 @@ impl Builder<'_> {
             strategy,
             stop,
             cost,
+            ..
         } = *self.rules;
         let n = self.objects.len() - region.objects;
         let share = bounds.surface_area() / self.root_area;
@@ -218,8 +257,9 @@ impl Builder<'_> {
     /// Median of the centres of the objects' bounds clipped to the node; the mean of the middle two of an even number.
     fn object_median(&mut self, bounds: &Aabb, axis: Axis, region: Region) -> Option<f64> {
         let (lo, hi) = (bounds.lo[axis], bounds.hi[axis]);
+        let all: &[Aabb] = &self.bounds;
         let clipped_centre = |&object: &u32| {
-            let b = &self.bounds[object as usize];
+            let b = &all[object as usize];
             0.5 * b.lo[axis].max(lo) + 0.5 * b.hi[axis].min(hi)
         };
         self.centres.clear();
@@ -246,8 +286,9 @@ impl Builder<'_> {
             planar_left,
             ..
         } = *split;
+        let bounds: &[Aabb] = &self.bounds;
         for &object in &self.objects[region.objects..] {
-            let b = &self.bounds[object as usize];
+            let b = &bounds[object as usize];
             let (left, right) = (b.lo[axis] < s, b.hi[axis] > s);
             self.sides[object as usize] = match (left, right) {
                 (false, false) if planar_left => LEFT,
@@ -255,12 +296,23 @@ impl Builder<'_> {
                 _ => u8::from(left) * LEFT + u8::from(right) * RIGHT,
             };
         }
-        let sides = &self.sides;
+        if let Some(clipping) = &mut self.clipping {
+            let objects = &self.objects[region.objects..];
+            let bounds = self.bounds.to_mut();
+            clipping.cut(objects, &mut self.sides, bounds, (axis, s));
+        }
         let mut top = Region::default();
         let mut kept = Region::default();
         (top.objects, kept.objects) = spread(&mut self.objects, region.objects, |&object| {
-            sides[object as usize]
+            self.sides[object as usize]
         });
+        if let Some(clipping) = &self.clipping {
+            // Their events here end: the parts have their own.
+            for &object in &clipping.cut {
+                self.sides[object as usize] = 0;
+            }
+        }
+        let sides = &self.sides;
         for k in 0..3 {
             let start = region.events[k];
             let events = &mut self.events[k];
@@ -274,6 +326,12 @@ impl Builder<'_> {
             } else {
                 spread(events, start, |e| sides[e.object as usize])
             };
+            if let Some(clipping) = &self.clipping {
+                // At most as many as the objects had here, so the right list still ends below the left one.
+                kept.events[k] = clipping.merge(1, k, events, start, kept.events[k]);
+                debug_assert!(kept.events[k] <= top.events[k]);
+                clipping.merge(0, k, events, top.events[k], events.len());
+            }
         }
         (top, kept)
     }

@@ -5,6 +5,7 @@
 
 pub mod audit;
 pub mod build;
+mod clip;
 pub mod count;
 pub mod predict;
 pub mod probe;
@@ -15,7 +16,7 @@ mod sweep;
 pub mod traverse;
 pub mod tree;
 
-pub use build::{Rules, build};
+pub use build::{Rules, build, build_objects};
 pub use count::Counts;
 pub use predict::{Prediction, predict};
 pub use probe::{NoProbe, Probe, Work};

@@ -4,6 +4,8 @@
 //! there); they are sorted once, and their order survives every split. A node's list holds the events inside or on its
 //! box; objects whose start or end lies outside are known from the object count.
 
+use std::cmp::Ordering;
+
 use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis};
 
@@ -23,32 +25,39 @@ pub(super) struct Event {
     pub kind: EventKind,
 }
 
+impl Event {
+    /// The total order of a list: by position, then kind, then object.
+    pub fn order(&self, other: &Self) -> Ordering {
+        self.position
+            .total_cmp(&other.position)
+            .then(self.kind.cmp(&other.kind))
+            .then(self.object.cmp(&other.object))
+    }
+}
+
+/// Append the events of an object with box `b` on one axis.
+pub(super) fn push_events(events: &mut Vec<Event>, object: u32, b: &Aabb, axis: Axis) {
+    // Adding +0 turns -0 into +0, so that equal positions are equal to `total_cmp` too.
+    let (lo, hi) = (b.lo[axis] + 0.0, b.hi[axis] + 0.0);
+    let event = |position, kind| Event {
+        position,
+        object,
+        kind,
+    };
+    if lo == hi {
+        events.push(event(lo, EventKind::Planar));
+    } else {
+        events.extend([event(lo, EventKind::Start), event(hi, EventKind::End)]);
+    }
+}
+
 /// All events of one axis, in total order.
 pub(super) fn sorted_events(bounds: &[Aabb], axis: Axis) -> Vec<Event> {
     let mut events = Vec::with_capacity(2 * bounds.len());
     for (object, b) in bounds.iter().enumerate() {
-        // Adding +0 turns -0 into +0, so that equal positions are equal to `total_cmp` too.
-        let (lo, hi) = (b.lo[axis] + 0.0, b.hi[axis] + 0.0);
-        let mut push = |position, kind| {
-            events.push(Event {
-                position,
-                object: object as u32,
-                kind,
-            });
-        };
-        if lo == hi {
-            push(lo, EventKind::Planar);
-        } else {
-            push(lo, EventKind::Start);
-            push(hi, EventKind::End);
-        }
+        push_events(&mut events, object as u32, b, axis);
     }
-    events.sort_unstable_by(|a, b| {
-        a.position
-            .total_cmp(&b.position)
-            .then(a.kind.cmp(&b.kind))
-            .then(a.object.cmp(&b.object))
-    });
+    events.sort_unstable_by(Event::order);
     events
 }
 

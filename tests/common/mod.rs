@@ -13,6 +13,7 @@ pub fn rules(strategy: Strategy, stop: &str) -> Rules {
         strategy,
         stop: stop.parse().unwrap(),
         cost: CostModel::WALD_HAVRAN,
+        clipped: false,
     }
 }
 
