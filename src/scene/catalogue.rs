@@ -40,13 +40,14 @@ pub fn catalogue() -> Vec<(String, String)> {
 }
 
 impl Recipe {
-    fn spec(&self) -> String {
+    /// What one types to get it at its usual size.
+    pub(super) fn spec(&self) -> String {
         format!("{}:{}", self.group, self.name)
     }
 }
 
 fn recipes() -> impl Iterator<Item = &'static Recipe> {
-    simple::RECIPES.iter().chain(&spd::RECIPES)
+    simple::RECIPES.iter().chain(spd::recipes())
 }
 
 /// The scene `rest`, which is NAME or NAME:SIZE, of a group; `spec` is what was asked for.
@@ -135,7 +136,7 @@ mod tests {
     #[test]
     fn every_scene_of_the_catalogue_loads_and_names_itself() {
         let all = catalogue();
-        assert_eq!(all.len(), 9);
+        assert_eq!(all.len(), 17);
         for (spec, about) in all {
             let scene = Scene::load(&spec).expect("a scene of the catalogue");
             assert!(scene.name.starts_with(&format!("{spec}:")), "{spec}");

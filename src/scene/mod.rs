@@ -27,6 +27,7 @@ pub use error::SceneError;
 pub use look::Look;
 use random::Random;
 pub(crate) use random::unit_interval;
+pub use spd::{SPD_GROUPS, spd_group, spd_scenes};
 
 /// The file name extensions that can be read.
 pub const EXTENSIONS: [&str; 3] = ["obj", "ply", "off"];

@@ -2,24 +2,21 @@
 
 use glam::{DMat3, DVec3};
 
-use crate::geom::{Objects, Polygon, Sphere};
+use super::stage::{ground, opaque, stage};
+use super::turn::turn;
+use crate::scene::draft::Draft;
 
-/// The spheres depth first, each before its children, and the floor. Every angle of the construction has a sine and
+/// The floor, and the spheres depth first, each before its children. Every angle of the construction has a sine and
 /// cosine in square roots, so no transcendental function is needed.
-pub(super) fn objects(size: usize) -> Objects {
-    let floor = [[12.0, 12.0], [-12.0, 12.0], [-12.0, -12.0], [12.0, -12.0]]
-        .map(|[x, y]| DVec3::new(x, y, -0.5));
-    let mut spheres = Vec::new();
-    let root = Sphere {
-        centre: DVec3::ZERO,
-        radius: 0.5,
-    };
-    grow(size, root, DVec3::Z, &directions(), &mut spheres);
-    Objects {
-        spheres,
-        polygons: vec![Polygon::new(floor.into()).expect("a square is a polygon")],
-        ..Objects::default()
-    }
+pub(super) fn draft(size: usize) -> Draft {
+    let view = [[2.1, 1.3, 1.7], [0.0; 3], [0.0, 0.0, 1.0]];
+    let lights = [[4.0, 3.0, 2.0], [1.0, -4.0, 4.0], [-3.0, 1.0, 5.0]];
+    let mut draft = Draft::new(stage(view, 45.0, 0.01, &lights));
+    draft.material(opaque([1.0, 0.75, 0.33], [0.8, 0.0], 0.0, 1.0));
+    draft.polygon(ground(12.0, -0.5));
+    draft.material(opaque([1.0, 0.9, 0.7], [0.5, 0.5], 37.0, 1.0));
+    grow(size, DVec3::ZERO, 0.5, DVec3::Z, &directions(), &mut draft);
+    draft
 }
 
 /// Where the children of a sphere that points along z are: three above, six around the equator.
@@ -42,23 +39,21 @@ fn directions() -> [DVec3; 9] {
 /// Emits a sphere that points along `direction`, and its children `depth` generations on.
 fn grow(
     depth: usize,
-    sphere: Sphere,
+    centre: DVec3,
+    radius: f64,
     direction: DVec3,
     directions: &[DVec3; 9],
-    spheres: &mut Vec<Sphere>,
+    draft: &mut Draft,
 ) {
-    spheres.push(sphere);
+    draft.sphere(centre, radius);
     if depth == 0 {
         return;
     }
     let frame = from_z(direction);
     for d in directions {
         let towards = frame * *d;
-        let child = Sphere {
-            centre: sphere.centre + (4.0 / 3.0) * sphere.radius * towards,
-            radius: sphere.radius / 3.0,
-        };
-        grow(depth - 1, child, towards, directions, spheres);
+        let child = centre + (4.0 / 3.0) * radius * towards;
+        grow(depth - 1, child, radius / 3.0, towards, directions, draft);
     }
 }
 
@@ -76,29 +71,9 @@ fn from_z(d: DVec3) -> DMat3 {
     }
 }
 
-/// Right-handed rotation about a unit axis by the angle with this sine and cosine (Rodrigues).
-fn turn(axis: DVec3, sine: f64, cosine: f64) -> DMat3 {
-    let column = |e: DVec3| cosine * e + sine * axis.cross(e) + (1.0 - cosine) * axis.dot(e) * axis;
-    DMat3::from_cols(column(DVec3::X), column(DVec3::Y), column(DVec3::Z))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn children_touch_their_parent_and_no_sphere_overlaps() {
-        let spheres = objects(2).spheres;
-        let mut tangent = 0;
-        for (i, a) in spheres.iter().enumerate() {
-            for b in &spheres[..i] {
-                let gap = a.centre.distance(b.centre) - a.radius - b.radius;
-                assert!(gap > -1e-14, "overlap {gap}");
-                tangent += usize::from(gap < 1e-14);
-            }
-        }
-        assert_eq!(tangent, spheres.len() - 1);
-    }
 
     #[test]
     fn frames_are_rotations() {
