@@ -98,6 +98,11 @@ impl Mesh {
         Ok(())
     }
 
+    /// Adds a triangle by its corners.
+    pub(super) fn triangle(&mut self, corners: [DVec3; 3]) {
+        self.triangles.push(Triangle(corners));
+    }
+
     /// The fault of a face that names a vertex which does not exist.
     pub(super) fn no_vertex(&self, number: &str) -> Fault {
         let right = match self.vertices.len() {

@@ -15,6 +15,7 @@ mod ply;
 mod random;
 mod simple;
 mod spd;
+mod stl;
 
 use std::ops::RangeInclusive;
 
@@ -30,7 +31,7 @@ pub(crate) use random::unit_interval;
 pub use spd::{SPD_GROUPS, spd_group, spd_scenes};
 
 /// The file name extensions that can be read.
-pub const EXTENSIONS: [&str; 3] = ["obj", "ply", "off"];
+pub const EXTENSIONS: [&str; 4] = ["obj", "ply", "stl", "off"];
 
 /// The largest number of objects of a scene.
 pub const MAX_OBJECTS: usize = (1 << 27) - 1;
@@ -119,7 +120,7 @@ impl Scene {
         })
     }
 
-    /// The scene of that name: `simple:NAME[:N]`, `spd:NAME[:SIZE]`, or a path ending in .obj, .ply or .off.
+    /// The scene of that name: `simple:NAME[:N]`, `spd:NAME[:SIZE]`, or a path that ends in one of [`EXTENSIONS`].
     ///
     /// A procedural scene's name always carries its size, so that one scene has one name.
     pub fn load(spec: &str) -> Result<Self, SceneError> {
@@ -155,6 +156,7 @@ fn read(path: &str) -> Result<Scene, SceneError> {
         Some("obj") => obj::parse,
         Some("off") => off::parse,
         Some("ply") => ply::parse,
+        Some("stl") => stl::parse,
         Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
         None => return Err(unknown(path, "no such scene".into())),
     };

@@ -3,6 +3,7 @@
 mod obj;
 mod off;
 mod ply;
+mod stl;
 
 use std::error::Error;
 use std::fs;
@@ -107,11 +108,11 @@ fn missing_files_and_unknown_kinds() {
     assert_eq!(e.to_string(), "no-such-file.obj: cannot read the file");
     assert!(e.source().is_some());
     bad(
-        "a.stl",
-        "solid",
+        "a.dxf",
+        "SECTION",
         "",
-        "cannot read .stl files",
-        ".obj, .ply, .off",
+        "cannot read .dxf files",
+        ".obj, .ply, .stl, .off",
     );
 }
 
@@ -134,7 +135,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// One mesh in five files gives the same triangles.
+    /// One mesh in seven files gives the same triangles.
     #[test]
     fn all_kinds_agree((vertices, faces) in mesh()) {
         let mut obj = String::new();
@@ -159,6 +160,10 @@ proptest! {
         let little = good("a.ply", binary(false, &vertices, &faces));
         let big = good("a.ply", binary(true, &vertices, &faces));
         prop_assert_eq!(&little.objects, &big.objects);
+        let fans = faces.iter().flat_map(|f| f[1..].windows(2).map(|w| [f[0], w[0], w[1]]));
+        let fans: Vec<_> = fans.map(|t| t.map(|i| vertices[i as usize])).collect();
+        prop_assert_eq!(&good("a.stl", stl::text(&fans)).objects, &scene.objects);
+        prop_assert_eq!(&good("a.stl", stl::binary("", &fans)).objects, &big.objects);
         // The shortest text of an f32 is another f64 than the f32 itself, but near it.
         prop_assert_eq!(big.objects.triangles.len(), expected);
         for (a, b) in big.objects.triangles.iter().zip(&scene.objects.triangles) {
@@ -180,12 +185,14 @@ proptest! {
             (header("ascii", 4, 1) + PLY_SQUARE + "3 0 1 2\n").into_bytes(),
             binary(false, &CORNERS, &[vec![0, 1, 2]]),
             binary(true, &CORNERS, &[vec![0, 1, 2]]),
+            stl::text(&[[[0.0; 3]; 3]; 2]).into_bytes(),
+            stl::binary("solid", &[[[1.0; 3]; 3]; 3]),
         ];
         for file in &mut files {
             let start = cut.min(file.len());
             let end = (start + noise.len() / 8).min(file.len());
             file.splice(start..end, noise.iter().copied());
-            for name in ["a.obj", "a.off", "a.ply"] {
+            for name in ["a.obj", "a.off", "a.ply", "a.stl"] {
                 drop(load(name, file));
             }
         }

@@ -78,7 +78,7 @@ pub enum Command {
     },
     /// One scene: its objects, a tree per strategy, predicted and counted work, which strategy to take.
     Scene {
-        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply or .off file.
+        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl or .off file.
         #[arg(value_name = "SCENE")]
         scene: String,
         /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]` or

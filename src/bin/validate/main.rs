@@ -200,7 +200,7 @@ fn list(what: Option<Listed>) -> String {
         }
     };
     let mut scenes = catalogue();
-    scenes.push(("PATH".into(), "a mesh: .obj, .ply or .off".into()));
+    scenes.push(("PATH".into(), "a mesh: .obj, .ply, .stl or .off".into()));
     section(Listed::Scenes, "scenes", scenes);
     let strategies = Strategy::ALL.iter().map(|s| (s.name(), s.description()));
     section(Listed::Strategies, "strategies", strategies.collect());
