@@ -4,12 +4,14 @@
 
 use std::convert::Infallible;
 
+use plotters::element::{Drawable, PointCollection};
 use plotters_backend::text_anchor::{HPos, VPos};
 use plotters_backend::{
     BackendColor, BackendCoord, BackendStyle, BackendTextStyle, DrawingBackend, DrawingErrorKind,
     FontTransform,
 };
 
+use super::bitmap::Bitmap;
 use super::figure::{Figure, Form, Segment, Shape};
 use super::glyphs;
 
@@ -29,7 +31,7 @@ impl<'a> Canvas<'a> {
         let empty = match &form {
             Form::Fill(segments) => segments.is_empty(),
             Form::Stroke(line, _) => line.len() < 2,
-            Form::Disc(..) => false,
+            Form::Disc(..) | Form::Picture(..) => false,
         };
         if alpha > 0.0 && !empty {
             self.0.shapes.push(Shape { form, rgb, alpha });
@@ -144,5 +146,39 @@ impl DrawingBackend for Canvas<'_> {
             _ => [x + left + u, y + baseline + v],
         });
         self.push(Form::Fill(outline), style.color())
+    }
+}
+
+/// A picture at its place: the one element that plotters does not have.
+pub struct Placed {
+    /// Upper left and lower right corner.
+    pub corners: [BackendCoord; 2],
+    /// What is shown between them.
+    pub bitmap: Bitmap,
+}
+
+impl<'a> PointCollection<'a, BackendCoord> for &'a Placed {
+    type Point = &'a BackendCoord;
+    type IntoIter = std::slice::Iter<'a, BackendCoord>;
+
+    fn point_iter(self) -> Self::IntoIter {
+        self.corners.iter()
+    }
+}
+
+impl Drawable<Canvas<'_>> for Placed {
+    fn draw<I: Iterator<Item = BackendCoord>>(
+        &self,
+        corners: I,
+        canvas: &mut Canvas,
+        _: (u32, u32),
+    ) -> Drawn {
+        let corners: Vec<_> = corners.map(point).collect();
+        let opaque = BackendColor {
+            alpha: 1.0,
+            rgb: (0, 0, 0),
+        };
+        let picture = Form::Picture([corners[0], corners[1]], self.bitmap.clone());
+        canvas.push(picture, opaque)
     }
 }

@@ -10,7 +10,8 @@ use plotters::element::{Circle, PathElement, Polygon, Rectangle, Text};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color, FontTransform, IntoFont, RGBAColor, ShapeStyle, TextStyle};
 
-use super::canvas::Canvas;
+use super::bitmap::Bitmap;
+use super::canvas::{Canvas, Placed};
 use super::{raster, svg};
 
 /// Backend units in a point (1/72 inch).
@@ -39,6 +40,8 @@ pub enum Form {
     Stroke(Vec<[f32; 2]>, f32),
     /// A filled disc: centre, radius.
     Disc([f32; 2], f32),
+    /// A picture between two corners, in its own colours.
+    Picture([[f32; 2]; 2], Bitmap),
 }
 
 /// One shape and its colour.
@@ -170,6 +173,12 @@ impl<'a> Pen<'a> {
     pub fn disc(&self, centre: (f64, f64), radius: f64, colour: RGBAColor) {
         let disc = Circle::new(unit_pair(centre), units(radius), colour.filled());
         self.0.draw(&disc).expect(DRAWN);
+    }
+
+    /// A picture between its upper left and lower right corners.
+    pub fn picture(&self, a: (f64, f64), b: (f64, f64), bitmap: Bitmap) {
+        let corners = [unit_pair(a), unit_pair(b)];
+        self.0.draw(&Placed { corners, bitmap }).expect(DRAWN);
     }
 
     /// A line of text of this size, anchored at a point.

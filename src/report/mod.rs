@@ -4,6 +4,7 @@
 //! knows of trees, scenes or lines: the only import from the rest is the row types of [`crate::study::records`].
 
 mod axis;
+mod bitmap;
 mod canvas;
 mod cost;
 mod density;
@@ -19,6 +20,7 @@ mod palette;
 mod panel;
 mod raster;
 mod read;
+pub mod render;
 pub mod screen;
 mod series;
 mod slopes;
@@ -34,6 +36,7 @@ use std::path::{Path, PathBuf};
 
 use crate::files::write_atomic;
 
+pub use bitmap::Bitmap;
 pub use figure::Figure;
 pub use hits::Hits;
 pub use read::{Content, Run, read_run};
@@ -108,20 +111,23 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
-        let path = out.join(format!("{name}.svg"));
-        write(&path, figure.svg().as_bytes())?;
-        files.push(path);
-        let path = out.join(format!("{name}.png"));
-        let bytes = figure
-            .png(DOTS_PER_INCH)
-            .map_err(|source| ReportError::Png {
-                path: path.clone(),
-                source,
-            })?;
-        write(&path, &bytes)?;
-        files.push(path);
+        files.extend(write_figure(out, name, &figure)?);
     }
     Ok(files)
+}
+
+/// Writes a figure into `out` as SVG and PNG; gives the two files.
+pub fn write_figure(out: &Path, name: &str, figure: &Figure) -> Result<[PathBuf; 2], ReportError> {
+    let [svg, png] = ["svg", "png"].map(|extension| out.join(format!("{name}.{extension}")));
+    write(&svg, figure.svg().as_bytes())?;
+    let bytes = figure
+        .png(DOTS_PER_INCH)
+        .map_err(|source| ReportError::Png {
+            path: png.clone(),
+            source,
+        })?;
+    write(&png, &bytes)?;
+    Ok([svg, png])
 }
 
 /// Writes every table of a run into `out`, as Markdown, LaTeX and CSV; gives the files in the order written.

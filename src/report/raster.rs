@@ -2,45 +2,49 @@
 
 use ab_glyph_rasterizer::{Point, Rasterizer, point};
 
+use super::bitmap::Bitmap;
 use super::figure::{Figure, Form, Segment, Shape, UNITS};
 
-/// The encoded image, on white, with its resolution noted in a pHYs chunk.
+/// The encoded image, on white, with its resolution noted.
 pub fn png(figure: &Figure, dots_per_inch: f64) -> Result<Vec<u8>, png::EncodingError> {
     let scale = dots_per_inch / 72.0 / UNITS;
-    let size = |units: u32| (f64::from(units) * scale).round().max(1.0) as u32;
-    let mut image = Image::white(size(figure.size.0), size(figure.size.1));
+    let size = |units: u32| (f64::from(units) * scale).round().max(1.0) as usize;
+    let mut image = Bitmap::white(size(figure.size.0), size(figure.size.1));
     for shape in &figure.shapes {
-        image.paint(shape, scale as f32);
+        match &shape.form {
+            Form::Picture([from, to], picture) => {
+                let dots =
+                    |[x, y]: [f32; 2]| [x, y].map(|v| (f64::from(v) * scale).round() as usize);
+                image.place(picture, dots(*from), dots(*to));
+            }
+            _ => image.paint(shape, scale as f32),
+        }
     }
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, image.width as u32, image.height as u32);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    let dots_per_metre = (dots_per_inch / 0.0254).round() as u32;
-    encoder.set_pixel_dims(Some(png::PixelDimensions {
-        xppu: dots_per_metre,
-        yppu: dots_per_metre,
-        unit: png::Unit::Meter,
-    }));
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(&image.rgb)?;
-    writer.finish()?;
-    Ok(bytes)
+    image.png(Some(dots_per_inch))
 }
 
-struct Image {
-    width: usize,
-    height: usize,
-    rgb: Vec<u8>,
-}
-
-impl Image {
-    fn white(width: u32, height: u32) -> Self {
-        let (width, height) = (width as usize, height as usize);
-        Image {
-            width,
-            height,
-            rgb: vec![255; 3 * width * height],
+impl Bitmap {
+    /// Draws a picture between two corners, interpolating between the middles of its pixels.
+    fn place(&mut self, picture: &Bitmap, [x0, y0]: [usize; 2], [x1, y1]: [usize; 2]) {
+        // For every dot across or up: two neighbouring pixels and the weight of the second.
+        let taps = |dots: usize, pixels: usize| {
+            (0..dots).map(move |dot| {
+                let last = (pixels - 1) as f64;
+                let at = (dot as f64 + 0.5) * pixels as f64 / dots as f64 - 0.5;
+                let at = at.clamp(0.0, last);
+                let first = at as usize;
+                (first, (first + 1).min(pixels - 1), at - at.floor())
+            })
+        };
+        for (y, (above, below, down)) in (y0..self.height).zip(taps(y1 - y0, picture.height)) {
+            for (x, (left, right, along)) in (x0..self.width).zip(taps(x1 - x0, picture.width)) {
+                let at = 3 * (y * self.width + x);
+                for (c, byte) in self.rgb[at..at + 3].iter_mut().enumerate() {
+                    let of = |x, y| f64::from(picture.rgb[3 * (y * picture.width + x) + c]);
+                    let row = |y| of(left, y) * (1.0 - along) + of(right, y) * along;
+                    *byte = (row(above) * (1.0 - down) + row(below) * down).round() as u8;
+                }
+            }
         }
     }
 
@@ -92,6 +96,7 @@ impl Image {
 fn contours(form: &Form, scale: f32) -> Vec<Vec<[f32; 2]>> {
     let scaled = |[x, y]: [f32; 2]| [x * scale, y * scale];
     match form {
+        Form::Picture(..) => Vec::new(),
         Form::Fill(segments) => flatten(segments, scaled),
         Form::Disc(centre, radius) => vec![disc(scaled(*centre), radius * scale)],
         Form::Stroke(line, width) => {

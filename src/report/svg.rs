@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::bitmap::base64;
 use super::figure::{Figure, Form, Segment, Shape, UNITS};
 
 /// Steps of the SVG's own unit in a backend unit, so that letters too have whole coordinates.
@@ -58,6 +59,18 @@ fn element(out: &mut String, form: &Form) {
             let [x, y] = whole([*x, *y]);
             let radius = f64::from(*radius) * FINER;
             writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"{radius}\"/>")
+        }
+        Form::Picture([from, to], bitmap) => {
+            let ([x, y], [right, bottom]) = (whole(*from), whole(*to));
+            let png = bitmap.png(None).expect("a bitmap has three bytes a pixel");
+            writeln!(
+                out,
+                "<image x=\"{x}\" y=\"{y}\" width=\"{}\" height=\"{}\" preserveAspectRatio=\"none\" \
+                 href=\"data:image/png;base64,{}\"/>",
+                right - x,
+                bottom - y,
+                base64(&png)
+            )
         }
         Form::Stroke(line, _) => {
             let mut path = Path::default();

@@ -34,6 +34,7 @@ fn assert_on_page(figure: &Figure) {
     for shape in &figure.shapes {
         match &shape.form {
             Form::Disc(centre, radius) => check(*centre, *radius),
+            Form::Picture(corners, _) => corners.iter().for_each(|&corner| check(corner, 0.0)),
             Form::Stroke(line, width) => line.iter().for_each(|&point| check(point, width / 2.0)),
             Form::Fill(segments) => segments.iter().for_each(|segment| match *segment {
                 Segment::Move(to) | Segment::Line(to) => check(to, 0.0),
