@@ -4,6 +4,7 @@ mod args;
 mod output;
 mod progress;
 mod publish;
+mod render;
 mod run;
 
 use std::path::PathBuf;
@@ -12,7 +13,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result};
 use clap::Parser;
 use sahlab::cost::CostModel;
-use sahlab::kd::{StopRule, Strategy};
+use sahlab::kd::{Rules, StopRule, Strategy};
 use sahlab::rays::LineLaw;
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
@@ -176,7 +177,20 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
     let scenes = run::load_scenes(&mut plan, None)?;
     let quick = if common.quick { "-quick" } else { "" };
     plan.name = format!("scene-{}{quick}", file_name_of(&plan.scenes[0]));
-    run_loaded(&[(plan, scenes)], common, screen::scene)
+    let plans = [(plan, scenes)];
+    let held = run_loaded(&plans, common, screen::scene)?;
+    let [(plan, scenes)] = &plans;
+    if let (false, Some(look)) = (common.dry_run, &scenes[0].look) {
+        let rules = Rules {
+            strategy: Strategy::Sah,
+            stop,
+            cost: plan.cost,
+            clipped: false,
+        };
+        let [_, plots] = run::folders(plan, common);
+        render::render(&scenes[0], look, &rules, plan.quick, &plots)?;
+    }
+    Ok(held)
 }
 
 /// A scene's name as a part of a path: its words, with one dash between them.

@@ -44,7 +44,7 @@ pub fn load_scenes(plan: &mut Plan, place: Option<&Path>) -> Result<Vec<Scene>> 
 }
 
 /// The folders of a plan's data and figures.
-fn folders(plan: &Plan, common: &Common) -> [PathBuf; 2] {
+pub fn folders(plan: &Plan, common: &Common) -> [PathBuf; 2] {
     ["data", "plots"].map(|part| common.root().join(part).join(&plan.name))
 }
 
