@@ -759,3 +759,46 @@ fn unwritable_output_is_refused() {
         .code(2)
         .stderr(contains("plots/e: cannot write").and(contains("counting").not()));
 }
+
+/// `scene --nff` writes a file that can be read again, and says why where it cannot.
+#[test]
+fn scenes_with_a_look_are_written_as_nff() {
+    let folder = tempdir().unwrap();
+    let here = folder.path();
+    let view = "v from 1 2 3 at 0 0 0 up 0 0 1 angle 45 hither 0 resolution 8 8";
+    let text = format!("b 0 0 .1\n{view}\ns 0 0 0 .3333333333333333\n");
+    fs::write(here.join("a.nff"), text).unwrap();
+    let written = |arguments: &[&str]| {
+        let mut command = validate(here);
+        command.args(["scene", "a.nff", "--nff", "sub/b.nff"]);
+        command.args(arguments).assert()
+    };
+    let last = || {
+        let text = fs::read_to_string(here.join("sub/b.nff")).unwrap();
+        text.lines().last().unwrap().to_owned()
+    };
+    written(&["--dry-run"]).success();
+    assert!(!here.join("sub").exists());
+    written(&[])
+        .success()
+        .stdout("sub/b.nff: 1 sphere, 17 significant digits\n")
+        .stderr(contains("they are white"));
+    assert_eq!(last(), "s 0 0 0 0.33333333333333331");
+    written(&["--digits", "6", "--quiet"]).success().stderr("");
+    assert_eq!(last(), "s 0 0 0 0.333333");
+    written(&["--digits", "18"])
+        .code(2)
+        .stderr(contains("1..=17"));
+    assert!(!here.join("data").exists());
+
+    let mut bare = validate(here);
+    bare.args(["scene", "simple:flat:5", "--nff", "c.nff"])
+        .assert()
+        .code(2)
+        .stderr(contains("has no camera, lights and materials"));
+    validate(here)
+        .args(["scene", "a.nff", "--digits", "6"])
+        .assert()
+        .code(2);
+    assert!(!here.join("c.nff").exists());
+}

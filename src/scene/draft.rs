@@ -25,6 +25,11 @@ impl Draft {
         }
     }
 
+    /// What it is to be seen on.
+    pub(super) fn stage(&mut self, stage: Stage) {
+        self.stage = Some(stage);
+    }
+
     /// The material of what is added from here on.
     pub(super) fn material(&mut self, material: Material) {
         self.materials.push(material);

@@ -6,6 +6,7 @@ use std::borrow::Cow;
 
 use glam::DVec3;
 
+use super::draft::Draft;
 use super::{SceneError, plural};
 use crate::geom::{Objects, Triangle};
 
@@ -113,7 +114,7 @@ impl Mesh {
     }
 
     /// The triangles, and notes for the user.
-    pub(super) fn into_parts(mut self) -> (Objects, Vec<String>) {
+    pub(super) fn into_draft(mut self) -> (Draft, Vec<String>) {
         let [faces, triangles] = self.split;
         if faces > 0 {
             self.notes.push(format!(
@@ -126,7 +127,7 @@ impl Mesh {
             triangles: self.triangles,
             ..Objects::default()
         };
-        (objects, self.notes)
+        (objects.into(), self.notes)
     }
 }
 
@@ -251,7 +252,8 @@ mod tests {
             fault.wrong,
             "vertex 2 stands twice in a face with 4 corners"
         );
-        let (objects, notes) = mesh.into_parts();
+        let (draft, notes) = mesh.into_draft();
+        let (objects, _) = draft.into_parts();
         assert_eq!(objects.triangles.len(), 5);
         assert_eq!(objects.triangles[4].0[2].x, 4.0);
         assert!(notes[0].starts_with("1 face with more than 3 corners split into 3 triangles"));

@@ -1,7 +1,7 @@
 //! What is in the world: procedural scenes and scenes read from files.
 //!
 //! A scene is named by one word: `simple:NAME[:N]` (made here, after the kinds of scene that MacDonald & Booth tried),
-//! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), or the path of a mesh. The same word gives the same bits
+//! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), or the path of a file. The same word gives the same bits
 //! on every machine: only + - * / and square roots, `libm`, and random numbers from a fixed seed are used.
 
 mod catalogue;
@@ -9,6 +9,7 @@ mod draft;
 mod error;
 pub mod look;
 mod mesh;
+mod nff;
 mod obj;
 mod off;
 mod ply;
@@ -31,7 +32,7 @@ pub(crate) use random::unit_interval;
 pub use spd::{SPD_GROUPS, spd_group, spd_scenes};
 
 /// The file name extensions that can be read.
-pub const EXTENSIONS: [&str; 4] = ["obj", "ply", "stl", "off"];
+pub const EXTENSIONS: [&str; 5] = ["obj", "ply", "stl", "off", "nff"];
 
 /// The largest number of objects of a scene.
 pub const MAX_OBJECTS: usize = (1 << 27) - 1;
@@ -152,20 +153,22 @@ fn read(path: &str) -> Result<Scene, SceneError> {
     let extension = std::path::Path::new(path)
         .extension()
         .map(|e| e.to_string_lossy().to_lowercase());
-    let parse = match extension.as_deref() {
-        Some("obj") => obj::parse,
-        Some("off") => off::parse,
-        Some("ply") => ply::parse,
-        Some("stl") => stl::parse,
-        Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
-        None => return Err(unknown(path, "no such scene".into())),
-    };
+    let parse: fn(&str, &[u8]) -> Result<(Draft, Vec<String>), SceneError> =
+        match extension.as_deref() {
+            Some("nff") => nff::parse,
+            Some("obj") => |path, bytes| Ok(obj::parse(path, bytes)?.into_draft()),
+            Some("off") => |path, bytes| Ok(off::parse(path, bytes)?.into_draft()),
+            Some("ply") => |path, bytes| Ok(ply::parse(path, bytes)?.into_draft()),
+            Some("stl") => |path, bytes| Ok(stl::parse(path, bytes)?.into_draft()),
+            Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
+            None => return Err(unknown(path, "no such scene".into())),
+        };
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
         path: path.into(),
         source,
     })?;
-    let (objects, notes) = parse(path, &bytes)?.into_parts();
-    Scene::new(path, objects, notes)
+    let (draft, notes) = parse(path, &bytes)?;
+    Scene::from_draft(path, draft, notes)
 }
 
 /// Refuses coordinates that are not finite and radii that are not positive.

@@ -1,5 +1,6 @@
 //! Mesh files, good and bad: what is read, and what the message says where something is wrong.
 
+mod nff;
 mod obj;
 mod off;
 mod ply;
@@ -112,7 +113,7 @@ fn missing_files_and_unknown_kinds() {
         "SECTION",
         "",
         "cannot read .dxf files",
-        ".obj, .ply, .stl, .off",
+        ".obj, .ply, .stl, .off, .nff",
     );
 }
 
@@ -135,7 +136,7 @@ proptest! {
         ..ProptestConfig::default()
     })]
 
-    /// One mesh in seven files gives the same triangles.
+    /// One mesh in eight files gives the same triangles.
     #[test]
     fn all_kinds_agree((vertices, faces) in mesh()) {
         let mut obj = String::new();
@@ -164,6 +165,7 @@ proptest! {
         let fans: Vec<_> = fans.map(|t| t.map(|i| vertices[i as usize])).collect();
         prop_assert_eq!(&good("a.stl", stl::text(&fans)).objects, &scene.objects);
         prop_assert_eq!(&good("a.stl", stl::binary("", &fans)).objects, &big.objects);
+        prop_assert_eq!(&good("a.nff", nff::text(&fans)).objects, &scene.objects);
         // The shortest text of an f32 is another f64 than the f32 itself, but near it.
         prop_assert_eq!(big.objects.triangles.len(), expected);
         for (a, b) in big.objects.triangles.iter().zip(&scene.objects.triangles) {
@@ -177,7 +179,7 @@ proptest! {
     #[test]
     fn readers_never_panic(
         noise in prop::collection::vec(any::<u8>(), 0..300),
-        cut in 0_usize..400,
+        cut in 0_usize..600,
     ) {
         let mut files = [
             format!("{SQUARE}f 1 2 3\n").into_bytes(),
@@ -187,12 +189,13 @@ proptest! {
             binary(true, &CORNERS, &[vec![0, 1, 2]]),
             stl::text(&[[[0.0; 3]; 3]; 2]).into_bytes(),
             stl::binary("solid", &[[[1.0; 3]; 3]; 3]),
+            nff::EVERYTHING.into(),
         ];
         for file in &mut files {
             let start = cut.min(file.len());
             let end = (start + noise.len() / 8).min(file.len());
             file.splice(start..end, noise.iter().copied());
-            for name in ["a.obj", "a.off", "a.ply", "a.stl"] {
+            for name in ["a.obj", "a.off", "a.ply", "a.stl", "a.nff"] {
                 drop(load(name, file));
             }
         }

@@ -78,13 +78,19 @@ pub enum Command {
     },
     /// One scene: its objects, a tree per strategy, predicted and counted work, which strategy to take.
     Scene {
-        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl or .off file.
+        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
         scene: String,
         /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]` or
         /// `automatic[:D]`.
         #[arg(long, default_value = "cost-gain", value_name = "RULE")]
         stop: sahlab::kd::StopRule,
+        /// Write the scene with its camera, lights and materials to this file instead, for other renderers.
+        #[arg(long, value_name = "FILE")]
+        nff: Option<PathBuf>,
+        /// Significant digits of that file: 17 keep every bit, the original programs write 6.
+        #[arg(long, value_name = "N", requires = "nff", default_value_t = 17, value_parser = clap::value_parser!(u8).range(1..=17))]
+        digits: u8,
     },
     /// What can be named: scenes, strategies, samplers, experiments.
     List {

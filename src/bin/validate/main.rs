@@ -7,12 +7,13 @@ mod publish;
 mod render;
 mod run;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result};
 use clap::Parser;
 use sahlab::cost::CostModel;
+use sahlab::files::write_atomic;
 use sahlab::kd::{Rules, StopRule, Strategy};
 use sahlab::rays::LineLaw;
 use sahlab::report::{Run, screen, write_plots, write_tables};
@@ -23,7 +24,7 @@ use sahlab::study::plan::{Overrides, PlanError};
 use sahlab::study::{self, Kind, LineRule, Plan};
 
 use args::{Cli, Command, Common, Listed};
-use output::{complain, print};
+use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
 const EXPERIMENTS: [(&str, &str); 2] = [
@@ -72,7 +73,13 @@ fn execute(cli: &Cli) -> Result<bool> {
                 .map(|path| Ok::<_, PlanError>((path.clone(), Plan::read(path, overrides)?)));
             run_plans(plans.collect::<Result<_, _>>()?, common)
         }
-        Some(Command::Scene { scene, stop }) => one_scene(scene, *stop, common, overrides),
+        Some(Command::Scene {
+            scene,
+            nff: Some(file),
+            digits,
+            ..
+        }) => write_nff(scene, file, *digits, common),
+        Some(Command::Scene { scene, stop, .. }) => one_scene(scene, *stop, common, overrides),
         Some(Command::List { what }) => print(&list(*what)).map(|()| true).map_err(Into::into),
         Some(Command::Plots { folder }) => {
             let run = run::read(folder)?;
@@ -193,6 +200,32 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
     Ok(held)
 }
 
+/// `validate scene --nff`: the scene as a file.
+fn write_nff(spec: &str, file: &Path, digits: u8, common: &Common) -> Result<bool> {
+    let scene = Scene::load(spec)?;
+    if !common.quiet {
+        for text in &scene.notes {
+            note(&format!("{}: {text}", scene.name));
+        }
+    }
+    let text = scene.to_nff(digits.into()).with_context(|| {
+        format!(
+            "{}: has no camera, lights and materials, which an NFF file needs; scenes named spd: and .nff files with a view \
+             have them",
+            scene.name
+        )
+    })?;
+    let what = format!("{}, {} significant digits", scene.counts(), digits);
+    if common.dry_run {
+        print(&format!("would write {}: {what}\n", file.display()))?;
+        return Ok(true);
+    }
+    write_atomic(file, text.as_bytes())
+        .with_context(|| format!("{}: cannot write", file.display()))?;
+    print(&format!("{}: {what}\n", file.display()))?;
+    Ok(true)
+}
+
 /// A scene's name as a part of a path: its words, with one dash between them.
 fn file_name_of(scene: &str) -> String {
     let words = scene.split(|c: char| !c.is_alphanumeric());
@@ -214,7 +247,10 @@ fn list(what: Option<Listed>) -> String {
         }
     };
     let mut scenes = catalogue();
-    scenes.push(("PATH".into(), "a mesh: .obj, .ply, .stl or .off".into()));
+    scenes.push((
+        "PATH".into(),
+        "a file: .obj, .ply, .stl, .off or .nff".into(),
+    ));
     section(Listed::Scenes, "scenes", scenes);
     let strategies = Strategy::ALL.iter().map(|s| (s.name(), s.description()));
     section(Listed::Strategies, "strategies", strategies.collect());
