@@ -241,7 +241,7 @@ mod tests {
         let base = numbers.vector(50.0);
         let size = [2e-3, 0.1, 20.0][(numbers.next() * 3.0) as usize];
         let mut axis = numbers.vector(size);
-        if i % 4 == 0 {
+        if i.is_multiple_of(4) {
             let k = (i / 4 % 3) as usize;
             axis = axis[k] * DVec3::AXES[k];
         }

@@ -120,6 +120,11 @@ impl Tree {
         self.nodes.iter().filter(empty).count()
     }
 
+    /// Bytes that a traversal reads: nodes and references, without the boxes, which only predictions read.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.references[..])
+    }
+
     /// Depth of every node (root = 0).
     pub fn depths(&self) -> Vec<u32> {
         let mut depths = vec![0; self.nodes.len()];

@@ -149,20 +149,22 @@ impl Scene {
     }
 }
 
+/// Reads the bytes of a file of this name.
+type Parse = fn(&str, &[u8]) -> Result<(Draft, Vec<String>), SceneError>;
+
 fn read(path: &str) -> Result<Scene, SceneError> {
     let extension = std::path::Path::new(path)
         .extension()
         .map(|e| e.to_string_lossy().to_lowercase());
-    let parse: fn(&str, &[u8]) -> Result<(Draft, Vec<String>), SceneError> =
-        match extension.as_deref() {
-            Some("nff") => nff::parse,
-            Some("obj") => |path, bytes| Ok(obj::parse(path, bytes)?.into_draft()),
-            Some("off") => |path, bytes| Ok(off::parse(path, bytes)?.into_draft()),
-            Some("ply") => |path, bytes| Ok(ply::parse(path, bytes)?.into_draft()),
-            Some("stl") => |path, bytes| Ok(stl::parse(path, bytes)?.into_draft()),
-            Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
-            None => return Err(unknown(path, "no such scene".into())),
-        };
+    let parse: Parse = match extension.as_deref() {
+        Some("nff") => nff::parse,
+        Some("obj") => |path, bytes| Ok(obj::parse(path, bytes)?.into_draft()),
+        Some("off") => |path, bytes| Ok(off::parse(path, bytes)?.into_draft()),
+        Some("ply") => |path, bytes| Ok(ply::parse(path, bytes)?.into_draft()),
+        Some("stl") => |path, bytes| Ok(stl::parse(path, bytes)?.into_draft()),
+        Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
+        None => return Err(unknown(path, "no such scene".into())),
+    };
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
         path: path.into(),
         source,

@@ -6,6 +6,7 @@ pub mod lines;
 pub mod plan;
 pub mod records;
 pub mod store;
+pub mod strategies;
 pub mod watcher;
 
 use thiserror::Error;
@@ -51,6 +52,7 @@ pub fn run(
 ) -> Result<(), RunError> {
     match &plan.kind {
         Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher),
+        Kind::Strategies(asked) => strategies::run(plan, asked, scenes, store, watcher),
     }
 }
 
@@ -58,5 +60,6 @@ pub fn run(
 pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
     match &plan.kind {
         Kind::HitsVsArea(asked) => hits::describe(plan, asked, scenes),
+        Kind::Strategies(asked) => strategies::describe(plan, asked, scenes),
     }
 }

@@ -18,6 +18,7 @@ use crate::kd::Strategy;
 
 use super::hits::HitsVsArea;
 use super::records::Summary;
+use super::strategies::Strategies;
 use super::{LEVEL, LineRule, SCHEMA};
 
 /// What an experiment asks for.
@@ -46,22 +47,26 @@ pub struct Plan {
 pub enum Kind {
     /// Hits against surface area, for every node of every tree.
     HitsVsArea(HitsVsArea),
+    /// Trees of several strategies: counted, traced, timed.
+    Strategies(Strategies),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 1] = ["hits-vs-area"];
+    pub const NAMES: [&str; 2] = ["hits-vs-area", "strategies"];
 
     /// The name in files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::HitsVsArea(_) => Self::NAMES[0],
+            Self::Strategies(_) => Self::NAMES[1],
         }
     }
 
     fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         match self {
             Self::HitsVsArea(asked) => asked.check(scenes),
+            Self::Strategies(asked) => asked.check(),
         }
     }
 }
@@ -270,6 +275,7 @@ impl Plan {
         }
         let kind = match head.kind.get_ref().as_str() {
             "hits-vs-area" => Kind::HitsVsArea(asked(rest)?),
+            "strategies" => Kind::Strategies(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -344,6 +350,7 @@ impl Plan {
         self.name += "-quick";
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.controls = None,
+            Kind::Strategies(_) => {}
         }
     }
 
@@ -352,6 +359,7 @@ impl Plan {
         let rule = LineRule::exactly(lines)?;
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.lines = rule,
+            Kind::Strategies(asked) => asked.lines = rule,
         }
         Ok(())
     }
@@ -363,7 +371,7 @@ impl Plan {
             Kind::HitsVsArea(asked) if asked.figure.scene == old => {
                 asked.figure.scene = name.into();
             }
-            Kind::HitsVsArea(_) => {}
+            Kind::HitsVsArea(_) | Kind::Strategies(_) => {}
         }
     }
 }

@@ -23,6 +23,7 @@ fn hits(scene: &Scene, view: &View) -> Vec<Hit> {
         strategy: Strategy::Sah,
         stop: "cost-gain".parse().unwrap(),
         cost: CostModel::WALD_HAVRAN,
+        clipped: false,
     };
     let tree = build(&scene.bounds, scene.world, &rules);
     let camera = Camera::new(view, PIXELS);

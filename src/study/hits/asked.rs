@@ -82,12 +82,7 @@ impl HitsVsArea {
         wrong_unless(finite, "expect.slope_within", || {
             format!("expect.slope_within = {slope_within}, but it must be a number above 0")
         })?;
-        let likely = (LEAST_FAMILY..1.0).contains(&family);
-        wrong_unless(likely, "expect.family", || {
-            format!(
-                "expect.family = {family}, but it must be at least {LEAST_FAMILY:e} and below 1"
-            )
-        })?;
+        check_family(family)?;
         wrong_unless((0.0..1.0).contains(&gate), "expect.gate", || {
             format!("expect.gate = {gate}, but it must be 0 to 1, 1 excluded")
         })?;
@@ -113,5 +108,13 @@ impl HitsVsArea {
     }
 }
 
+/// Whether simultaneous intervals of this chance of a miss can be computed.
+pub fn check_family(family: f64) -> Result<(), Wrong> {
+    let likely = (LEAST_FAMILY..1.0).contains(&family);
+    wrong_unless(likely, "expect.family", || {
+        format!("expect.family = {family}, but it must be at least {LEAST_FAMILY:e} and below 1")
+    })
+}
+
 /// The least chance of a miss of all intervals together for which their width can be computed.
-pub const LEAST_FAMILY: f64 = 1e-12;
+const LEAST_FAMILY: f64 = 1e-12;

@@ -4,8 +4,9 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use crate::kd::audit::{audit, audit_clipped};
 use crate::kd::stream::{Streams, count_lines};
-use crate::kd::{Counts, Prediction, Rules, Tree, audit::audit, build, predict};
+use crate::kd::{Counts, Prediction, Rules, Tree, build_objects, predict};
 use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
@@ -81,15 +82,34 @@ pub const PILOT: u64 = 1 << 16;
 /// If an integer identity fails, if the streams and the plain traversal disagree on any node, or if the tree fails its
 /// audit: each is a bug in the program, never a property of the scene.
 pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult, String> {
-    let started = Instant::now();
-    let tree = build(&plan.scene.bounds, plan.scene.world, &plan.rules);
-    let build_s = started.elapsed().as_secs_f64();
-    audit(&tree, &plan.scene.bounds).map_err(|faults| faults.join("; "))?;
+    let (tree, build_s) = plant(plan.scene, &plan.rules)?;
     let mut result = compare(plan, &tree, &predict(&tree), watcher)?;
     if let Some(timing) = &mut result.timing {
         timing.build_s = build_s;
     }
     Ok(result)
+}
+
+/// Build a tree, with the seconds it took, and prove its invariants.
+///
+/// # Errors
+/// If the tree fails its audit.
+pub fn plant(scene: &Scene, rules: &Rules) -> Result<(Tree, f64), String> {
+    let started = Instant::now();
+    let tree = build_tree(scene, rules);
+    let build_s = started.elapsed().as_secs_f64();
+    let audited = if rules.clipped {
+        audit_clipped(&tree, &scene.objects, &scene.bounds)
+    } else {
+        audit(&tree, &scene.bounds)
+    };
+    audited.map_err(|faults| faults.join("; "))?;
+    Ok((tree, build_s))
+}
+
+/// Build a scene's tree.
+pub fn build_tree(scene: &Scene, rules: &Rules) -> Tree {
+    build_objects(&scene.objects, &scene.bounds, scene.world, rules)
 }
 
 /// Count lines through a tree and hold the counts against a prediction.

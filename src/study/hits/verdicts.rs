@@ -18,9 +18,14 @@ pub fn all(
     let mut all = vec![identities(cells)];
     all.extend(samplers::verdicts(asked, samplers));
     all.extend(slope_within(asked, &slopes));
-    all.extend(simultaneous(asked, "slopes-cover", "1", &slopes));
     all.extend(simultaneous(
-        asked,
+        asked.expect.family,
+        "slopes-cover",
+        "1",
+        &slopes,
+    ));
+    all.extend(simultaneous(
+        asked.expect.family,
         "counts-cover",
         "the predicted count",
         &counts,
@@ -34,7 +39,7 @@ fn place(strategy: &str, scene: &str) -> String {
 }
 
 /// A failed identity ends the run with an error, so a finished run has passed them all.
-fn identities(cells: &[CellRecord]) -> Verdict {
+pub fn identities(cells: &[CellRecord]) -> Verdict {
     let visits: u64 = cells.iter().map(|r| r.inner_visits + r.leaf_visits).sum();
     Verdict {
         name: "identities".into(),
@@ -81,8 +86,8 @@ fn unjudged(count: usize) -> String {
 }
 
 /// The intervals of all cells together contain what theory says.
-fn simultaneous(
-    asked: &HitsVsArea,
+pub fn simultaneous(
+    family: f64,
     name: &str,
     what: &str,
     estimates: &[&Estimate],
@@ -116,7 +121,7 @@ fn simultaneous(
             "{} of {} simultaneous intervals (family {} %) contain {what}{told}{}",
             judged.len() - missed.len(),
             judged.len(),
-            100.0 * asked.expect.family,
+            100.0 * family,
             unjudged(estimates.len() - judged.len())
         ),
     })

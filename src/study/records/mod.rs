@@ -4,7 +4,11 @@
 //! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] holds times, so every other
 //! file is byte-identical for any number of threads.
 
+mod strategies;
+
 use serde::{Deserialize, Serialize};
+
+pub use strategies::{PassTiming, RayRecord};
 
 /// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
 ///
@@ -25,6 +29,8 @@ pub struct CellRecord {
     pub strategy: String,
     /// Stop rule, e.g. `objects:2:16`.
     pub stop: String,
+    /// Whether straddling triangles and polygons were clipped to the parts of a node.
+    pub clipped: bool,
     /// Seed of the run; the lines' own follows from it and the scene's boxes.
     pub seed: u64,
     /// Lines counted; each hits the scene's box.
@@ -47,6 +53,8 @@ pub struct CellRecord {
     pub empty_leaves: u64,
     /// References: entries of objects in leaves.
     pub references: u64,
+    /// Bytes a traversal reads of it: nodes and references.
+    pub bytes: u64,
     /// Nodes whose box has no area (p = 0): told, and left out of every fit.
     pub zero_area_nodes: u64,
     /// Nodes with an area that no line hit.

@@ -1,0 +1,66 @@
+//! What a run of kind `strategies` leaves behind besides `cells.csv`.
+
+use serde::{Deserialize, Serialize};
+
+/// What the traced rays of one kind did in one tree. A row of `rays.csv`. Counts are complete: every ray of the kind.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct RayRecord {
+    /// Identity of the cell.
+    pub cell: String,
+    /// Scene of the cell.
+    pub scene: String,
+    /// Strategy of the cell.
+    pub strategy: String,
+    /// Stop rule of the cell.
+    pub stop: String,
+    /// `primary`, `shadow` or `secondary`.
+    pub kind: String,
+    /// Rays cast.
+    pub rays: u64,
+    /// Rays that hit something; of the shadow rays, are blocked.
+    pub hits: u64,
+    /// Inner nodes visited by all of them together.
+    pub inner_visits: u64,
+    /// Leaves visited, empty ones too.
+    pub leaf_visits: u64,
+    /// Objects tested.
+    pub object_tests: u64,
+}
+
+/// Seconds of one thing done with one tree, on one thread. A row of `timings.csv` of a run of kind `strategies`.
+///
+/// Every round goes over all trees of the scene in a fresh order. Of each chunk of rays the least time of all rounds
+/// counts; a pass that would take too long is timed on a random sample of chunks and scaled.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct PassTiming {
+    /// Identity of the cell.
+    pub cell: String,
+    /// Scene of the cell.
+    pub scene: String,
+    /// Strategy of the cell.
+    pub strategy: String,
+    /// Stop rule of the cell.
+    pub stop: String,
+    /// `build`, or the kind of the rays traced: `primary`, `shadow`, `secondary`.
+    pub what: String,
+    /// Rays in all; 1 for `build`.
+    pub units: u64,
+    /// Rays timed; 1 for `build`.
+    pub timed_units: u64,
+    /// Times that each chunk, or the build, was timed.
+    pub rounds: u64,
+    /// Seconds for all units.
+    pub seconds: f64,
+    /// Standard error of `seconds` from the choice of the sample; 0 where all units were timed.
+    pub sampling_se_s: f64,
+    /// The same from the even rounds alone.
+    pub half_a_s: f64,
+    /// The same from the odd rounds alone.
+    pub half_b_s: f64,
+    /// Whether the halves are more than 3 % apart: the machine was disturbed.
+    pub disturbed: bool,
+    /// Load average of the machine when the scene was timed, where it is known.
+    pub load_average: Option<f64>,
+}

@@ -1,0 +1,86 @@
+//! What a `strategies` experiment asks for besides its scenes.
+
+use serde::Deserialize;
+
+use crate::kd::{StopRule, Strategy};
+use crate::study::LineRule;
+use crate::study::hits::asked::check_family;
+use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+
+/// The keys of this kind.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Strategies {
+    /// Strategies.
+    pub strategies: Vec<Strategy>,
+    /// Stop rules; each makes a table of its own.
+    pub stops: Vec<StopRule>,
+    /// Whether straddling triangles and polygons are clipped to the parts of a node.
+    #[serde(default)]
+    pub clipped: bool,
+    /// Isotropic lines that a cell counts.
+    pub lines: LineRule,
+    /// Pixels across and up: (pixels + 1)^2 eye rays go through their corners.
+    pub pixels: u32,
+    /// Random pixel corners of every scene whose hits are held against brute force.
+    pub checked: u32,
+    /// How seconds are measured.
+    pub timing: Timing,
+    /// What is expected.
+    pub expect: Expect,
+}
+
+/// How seconds are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timing {
+    /// Times that every chunk of rays is traced; even, so that there are two halves.
+    pub rounds: u32,
+    /// Times that every tree is built; even likewise.
+    pub builds: u32,
+    /// Seconds above which a pass over the rays of one kind is timed on a random sample.
+    pub pass_s: f64,
+}
+
+/// Bounds written before the run that they judge.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Expect {
+    /// Chance that any of the simultaneous intervals of a correct run misses its prediction.
+    pub family: f64,
+    /// Eye rays that hit something may differ from the published number by this many.
+    pub primary_hits_within: u64,
+}
+
+impl Strategies {
+    /// Whether the values make sense together.
+    pub fn check(&self) -> Result<(), Wrong> {
+        check_strategies(&self.strategies)?;
+        wrong_unless(!self.stops.is_empty(), "stops", || {
+            "stops must name at least one rule".into()
+        })?;
+        for (i, stop) in self.stops.iter().enumerate() {
+            wrong_unless(!self.stops[..i].contains(stop), "stops", || {
+                format!("stop rule '{stop}' is named twice")
+            })?;
+        }
+        wrong_unless((1..=8192).contains(&self.pixels), "pixels", || {
+            format!("pixels = {}, but it must be 1 to 8192", self.pixels)
+        })?;
+        let Timing {
+            rounds,
+            builds,
+            pass_s,
+        } = self.timing;
+        for (key, times) in [("timing.rounds", rounds), ("timing.builds", builds)] {
+            wrong_unless(times >= 2 && times % 2 == 0, key, || {
+                format!("{key} = {times}, but it must be even and at least 2, for two halves")
+            })?;
+        }
+        wrong_unless(pass_s > 0.0 && pass_s.is_finite(), "timing.pass_s", || {
+            format!("timing.pass_s = {pass_s}, but it must be a number above 0")
+        })?;
+        check_family(self.expect.family)?;
+        self.lines.check()
+    }
+}

@@ -1,0 +1,117 @@
+//! The experiment `strategies`: Havran's table (2000). Trees of several strategies over scenes that have a look: what they
+//! hold, what areas predict of them, what isotropic lines and the rays of the picture do in them, and in which time.
+
+pub mod asked;
+pub mod cells;
+pub mod pictures;
+pub mod timing;
+pub mod verdicts;
+
+use crate::scene::Scene;
+use crate::tracer::RayKind;
+
+use super::hits;
+use super::records::{CellRecord, PassTiming, RayRecord, Summary};
+use super::store::{Store, StoreError, TIMINGS};
+use super::{Plan, RunError, Watcher};
+
+pub use asked::Strategies;
+use cells::{Studied, TreeCell};
+
+/// Measure what is not finished and write the files of the run.
+pub(super) fn run(
+    plan: &Plan,
+    asked: &Strategies,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    let work: Vec<Vec<TreeCell>> = scenes
+        .iter()
+        .map(|scene| cells::of_scene(plan, asked, scene))
+        .collect();
+    // Of every tree: its counts, and each round of its times.
+    let units = u64::from(1 + asked.timing.rounds);
+    let all: usize = work.iter().map(Vec::len).sum();
+    watcher.expect(all as u64 * units);
+    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    let found: Vec<_> = work
+        .iter()
+        .map(|cells| cells::finished(store, cells, &times))
+        .collect();
+    let already = found.iter().flatten().map(Vec::len).sum::<usize>();
+    if already > 0 {
+        watcher.note(&format!(
+            "{already} of {all} trees were finished by an earlier run (--force measures them again)"
+        ));
+    }
+    if already < all {
+        watcher.announce(&format!("tracing rays through {} trees", all - already));
+        let left = work.iter().zip(&found).filter(|(_, found)| found.is_none());
+        let seconds: f64 = left.map(|(cells, _)| cells::guess(asked, cells)).sum();
+        if seconds > 60.0 {
+            let minutes = (seconds / 60.0).ceil();
+            watcher.note(&format!(
+                "this takes about {minutes} minutes on two cores of 2024; a stopped run goes on where it was"
+            ));
+        }
+    }
+    let mut results = Vec::new();
+    for (cells, found) in work.iter().zip(found) {
+        if let Some(found) = found {
+            watcher.skip(found.len() as u64 * units);
+            results.extend(found);
+        } else {
+            results.extend(cells::measure(plan, asked, cells, store, watcher)?);
+        }
+    }
+    write(plan, asked, &results, store)?;
+    Ok(())
+}
+
+/// Put the run's files together. Seconds and pictures are there already.
+fn write(
+    plan: &Plan,
+    asked: &Strategies,
+    results: &[Studied],
+    store: &Store,
+) -> Result<(), StoreError> {
+    let records: Vec<CellRecord> = results.iter().map(|r| r.record.clone()).collect();
+    let rays: Vec<&RayRecord> = results.iter().flat_map(|r| &r.rays).collect();
+    store.write_rows("cells.csv", &records)?;
+    store.write_rows("rays.csv", &rays)?;
+    let estimates = hits::estimates(&records, asked.expect.family);
+    store.write_summary(&Summary {
+        stop: match asked.stops[..] {
+            [stop] => Some(stop.to_string()),
+            _ => None,
+        },
+        family_level: Some(1.0 - asked.expect.family),
+        verdicts: verdicts::all(asked, &records, &rays, &estimates),
+        estimates,
+        ..plan.summary()
+    })
+}
+
+/// The cells of a dry run, a line each.
+pub(super) fn describe(plan: &Plan, asked: &Strategies, scenes: &[Scene]) -> String {
+    let mut text = format!("seed {}\n", plan.seed);
+    for scene in scenes {
+        for TreeCell { plan: cell, .. } in cells::of_scene(plan, asked, scene) {
+            text += &format!(
+                "{}  {:20} {:24} {:14} {:>9} objects\n",
+                cell.id,
+                cell.scene.name,
+                cell.rules.strategy,
+                cell.rules.stop.to_string(),
+                cell.scene.bounds.len(),
+            );
+        }
+    }
+    text + &format!(
+        "{} corners of pixels a scene, rays by kind ({}), {} rounds of times\n",
+        u64::from(asked.pixels + 1).pow(2),
+        RayKind::ALL.map(RayKind::name).join(", "),
+        asked.timing.rounds
+    )
+}

@@ -1,0 +1,47 @@
+//! The pictures a run keeps as data: what the rays showed, and what each pixel cost. In formats that other programs read.
+
+use crate::cost::CostModel;
+use crate::kd::{Rules, Strategy, Work};
+use crate::scene::Scene;
+use crate::study::store::{Store, StoreError};
+use crate::tracer::Picture;
+
+use super::asked::Strategies;
+
+/// Whether this tree's cost per pixel is kept: the reference strategy's, under the first stop rule.
+pub fn is_shown(asked: &Strategies, rules: &Rules) -> bool {
+    rules.strategy == Strategy::Sah && Some(&rules.stop) == asked.stops.first()
+}
+
+/// `pictures/SCENE.ppm` (binary portable pixmap): the scene as the rays see it.
+pub fn write_render(store: &Store, scene: &Scene, picture: &Picture) -> Result<(), StoreError> {
+    let mut bytes = format!("P6\n{} {}\n255\n", picture.width, picture.height).into_bytes();
+    bytes.extend(&picture.rgb);
+    store.write(&file(scene, "ppm"), &bytes)
+}
+
+/// `pictures/SCENE.pfm` (portable float map, one channel, little-endian, rows from the bottom): the cost
+/// c_K n_K + c_B n_B + c_t n_t of all rays that each pixel corner led to.
+pub fn write_cost(
+    store: &Store,
+    scene: &Scene,
+    cost: CostModel,
+    corners: &[Work],
+) -> Result<(), StoreError> {
+    let side = corners.len().isqrt();
+    let mut bytes = format!("Pf\n{side} {side}\n-1.0\n").into_bytes();
+    for row in corners.chunks(side).rev() {
+        for work in row {
+            let c = cost.cost(work.inner as f64, work.leaves as f64, work.tests as f64);
+            bytes.extend((c as f32).to_le_bytes());
+        }
+    }
+    store.write(&file(scene, "pfm"), &bytes)
+}
+
+/// A scene's name as a file name: its words with dashes between them.
+fn file(scene: &Scene, extension: &str) -> String {
+    let words = scene.name.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    format!("pictures/{}.{extension}", words.join("-"))
+}
