@@ -14,7 +14,7 @@ const ALLOWED: [(&str, &[&str]); 11] = [
     ("scene", &["geom"]),
     ("rays", &["geom", "scene", "stats"]),
     ("kd", &["cost", "geom"]),
-    ("tracer", &["geom", "kd", "scene"]),
+    ("tracer", &["cost", "geom", "kd", "scene"]),
     (
         "study",
         &[

@@ -69,7 +69,7 @@ fn traced(scene: &Scene, strategy: Strategy, pixels: u32) -> Traced {
 
 /// Rays and hits of every kind.
 fn numbers(rays: &RaySet) -> [(usize, u64); 3] {
-    RayKind::ALL.map(|kind| (rays.of(kind).rays.len(), rays.of(kind).hits))
+    RayKind::ALL.map(|kind| (rays.of(kind).rays.len(), rays.of(kind).hits()))
 }
 
 /// A square in the plane `x = const`, of half side 10.
@@ -157,7 +157,7 @@ fn glass_reflects_and_refracts() {
     // Depth 2: one misses, one goes in. Each ray inside makes one that leaves and one that stays.
     let secondary = rays.of(RayKind::Secondary).of_corner(0);
     assert_eq!(secondary.len(), 2 + 2 + 2 + 2);
-    assert_eq!(rays.of(RayKind::Secondary).hits, 4 * 4);
+    assert_eq!(rays.of(RayKind::Secondary).hits(), 4 * 4);
     assert_eq!(rays.of(RayKind::Shadow).rays.len(), 0);
 }
 
@@ -281,7 +281,7 @@ fn rays_and_picture_depend_on_neither_tree_nor_threads() {
             let (tally, rays) = (counts[0].of(kind), reference.rays.of(kind));
             assert_eq!(
                 (tally.rays, tally.hits),
-                (rays.rays.len() as u64, rays.hits)
+                (rays.rays.len() as u64, rays.hits())
             );
         }
         let mut sum = counts[0].of(RayKind::Primary).work;

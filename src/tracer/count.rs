@@ -4,8 +4,8 @@ use rayon::prelude::*;
 
 use super::{RayKind, RaySet};
 use crate::geom::{Objects, Ray};
-use crate::kd::traverse::{nearest_watched, occluded_watched};
-use crate::kd::{Probe, Stack, Tree, Work};
+use crate::kd::traverse::{nearest_watched, occluded_watched, traverse};
+use crate::kd::{Probe, Stack, Tracing, Tree, Work};
 
 /// What the rays of one kind did together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -44,23 +44,45 @@ impl RayCounts {
 
 /// Trace a ray set through a tree: shadow rays until they are blocked, all others to their nearest hit.
 ///
-/// Integers throughout, so that the number of threads does not matter.
+/// Integers throughout, so that the number of threads does not matter. What hits nothing is known from the making of the
+/// rays and does not depend on the tree: such a ray visits all that it meets, and its objects are counted without being
+/// tested, but for one piece in sixteen, where everything is tested again.
 pub fn count(set: &RaySet, tree: &Tree, objects: &Objects) -> RayCounts {
+    count_testing(set, tree, objects, 16)
+}
+
+/// As [`count`], testing everything in every piece of this many.
+fn count_testing(set: &RaySet, tree: &Tree, objects: &Objects, every: usize) -> RayCounts {
     /// Corners in one piece of work.
     const PIECE: usize = 512;
     let corners: Vec<usize> = (0..set.corners()).collect();
     let pieces: Vec<([Tally; 3], Vec<Work>)> = corners
         .par_chunks(PIECE)
-        .map(|piece| {
+        .enumerate()
+        .map(|(number, piece)| {
+            let test_all = number.is_multiple_of(every);
             let mut kinds = [Tally::default(); 3];
             let mut stack = Stack::default();
             let works = piece.iter().map(|&corner| {
                 let mut work = Work::default();
                 for kind in RayKind::ALL {
                     let tally = &mut kinds[kind as usize];
-                    for cast in set.of(kind).of_corner(corner) {
+                    for (cast, known) in set.of(kind).of_corner_with_hits(corner) {
                         let mut own = Work::default();
-                        let hit = hits(kind, tree, objects, &cast.ray(), &mut stack, &mut own);
+                        let ray = cast.ray();
+                        let hit = if known || test_all {
+                            hits(kind, tree, objects, &ray, &mut stack, &mut own)
+                        } else {
+                            traverse::<Tracing>(
+                                tree,
+                                &ray.line,
+                                ray.span,
+                                &mut stack,
+                                &mut own,
+                                |_| f64::INFINITY,
+                            );
+                            false
+                        };
                         work += own;
                         *tally += Tally {
                             rays: 1,
@@ -101,6 +123,36 @@ pub fn hits(
         RayKind::Shadow => occluded_watched(tree, objects, ray, stack, probe),
         RayKind::Primary | RayKind::Secondary => {
             nearest_watched(tree, objects, ray, stack, probe).is_some()
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kd::{Rules, Strategy, build};
+    use crate::scene::Scene;
+    use crate::tracer::trace;
+
+    #[test]
+    fn rays_known_to_miss_count_as_if_tested() {
+        for name in ["spd:balls:1", "spd:gears:1", "spd:tree:3", "spd:mount:3"] {
+            let scene = Scene::load(name).expect("a scene");
+            let look = scene.look.as_ref().expect("a look");
+            for strategy in [Strategy::Sah, Strategy::SpatialMedian] {
+                let rules = Rules {
+                    strategy,
+                    stop: "objects:1:12".parse().expect("a rule"),
+                    cost: crate::cost::CostModel::WALD_HAVRAN,
+                    clipped: false,
+                };
+                let tree = build(&scene.bounds, scene.world, &rules);
+                let rays = trace(&scene, look, &tree, 48).rays;
+                let count = |every| count_testing(&rays, &tree, &scene.objects, every);
+                let all = count(1);
+                assert!(all == count(usize::MAX), "{name} {strategy}");
+                assert!(all.of(RayKind::Shadow).hits < all.of(RayKind::Shadow).rays);
+            }
         }
     }
 }

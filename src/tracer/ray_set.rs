@@ -63,8 +63,8 @@ pub struct KindRays {
     pub rays: Vec<Cast>,
     /// Where the rays of each corner end.
     ends: Vec<u32>,
-    /// How many of the rays hit something; of the shadow rays, are blocked.
-    pub hits: u64,
+    /// Whether each ray hits something; of the shadow rays, is blocked.
+    hit: Vec<bool>,
 }
 
 impl KindRays {
@@ -74,10 +74,22 @@ impl KindRays {
         &self.rays[first as usize..self.ends[corner] as usize]
     }
 
+    /// The same with whether each hits something.
+    pub(super) fn of_corner_with_hits(&self, corner: usize) -> impl Iterator<Item = (&Cast, bool)> {
+        let rays = self.of_corner(corner);
+        let first = self.ends[corner] as usize - rays.len();
+        rays.iter().zip(self.hit[first..].iter().copied())
+    }
+
+    /// How many of the rays hit something; of the shadow rays, are blocked.
+    pub fn hits(&self) -> u64 {
+        self.hit.iter().filter(|&&hit| hit).count() as u64
+    }
+
     /// Add a ray of the current corner.
     pub(super) fn push(&mut self, cast: Cast, hit: bool) {
         self.rays.push(cast);
-        self.hits += u64::from(hit);
+        self.hit.push(hit);
     }
 
     /// No more rays of the current corner.
@@ -94,7 +106,7 @@ impl KindRays {
             let before = all.rays.len() as u32;
             all.ends.extend(row.ends.iter().map(|end| before + end));
             all.rays.extend(row.rays);
-            all.hits += row.hits;
+            all.hit.extend(row.hit);
         }
         all
     }
@@ -179,6 +191,6 @@ mod tests {
                 .collect();
             assert_eq!(found, *wanted);
         }
-        assert_eq!((shadow.rays.len(), shadow.hits, set.len()), (5, 2, 5));
+        assert_eq!((shadow.rays.len(), shadow.hits(), set.len()), (5, 2, 5));
     }
 }

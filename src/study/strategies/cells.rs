@@ -182,7 +182,7 @@ fn count_tree(
     let counts = count(rays, tree, &scene.objects);
     let row = |kind: RayKind| {
         let tally = counts.of(kind);
-        let made = rays.of(kind).hits;
+        let made = rays.of(kind).hits();
         if tally.hits != made {
             return Err(format!(
                 "{} {kind} rays hit something, but {made} did when they were made",
