@@ -182,7 +182,7 @@ impl Builder<'_> {
         } = *self.rules;
         let n = self.objects.len() - region.objects;
         let share = bounds.surface_area() / self.root_area;
-        if path.depth >= self.depth_bound || stop.stops_at(n, share) {
+        if path.depth >= self.depth_bound || stop.stops_at(path.depth, n, share) {
             return None;
         }
         let (order, positions) = strategy.parts();
@@ -249,7 +249,7 @@ impl Builder<'_> {
             events: &self.events[axis][region.events[axis]..],
             n: self.objects.len() - region.objects,
             cost: &self.rules.cost,
-            keep_useless: matches!(self.rules.stop, StopRule::Depth(_)),
+            keep_useless: self.rules.stop.takes_useless_planes(),
         };
         sweep.cheapest(window, &extra)
     }

@@ -1,4 +1,5 @@
-//! The kd-tree: strategies that place planes, stop rules, building, traversal with probes, and the area prediction.
+//! The kd-tree: strategies that place planes, stop rules, building, traversal with probes, and the area prediction;
+//! an octree to compare with.
 //!
 //! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]),
 //! counted ones from the planes alone ([`traverse()`], [`stream`]).
@@ -7,6 +8,7 @@ pub mod audit;
 pub mod build;
 mod clip;
 pub mod count;
+pub mod octree;
 pub mod predict;
 pub mod probe;
 pub mod stop;

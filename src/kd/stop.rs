@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 /// When a node becomes a leaf.
 ///
-/// Every rule but `depth` also ends at an empty node, at a depth bound, and where the
+/// Every rule but `depth` and, between its levels, `octree` also ends at an empty node, at a depth bound, and where the
 /// strategy has no candidate plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
@@ -41,6 +41,14 @@ pub enum StopRule {
         /// Depth bound; without one see [`automatic_depth`].
         depth: Option<u32>,
     },
+    /// `octree:N:D`: as `objects:N:D`, but asked at depths divisible by three only (D is one); nodes between are always cut,
+    /// empty ones and by useless planes too, as under `depth`. With strategy 1 the cells are an octree's of D/3 levels.
+    Octree {
+        /// Most objects in a leaf.
+        limit: u32,
+        /// Depth bound, a multiple of 3 of at most [`MAX_FULL_DEPTH`]: every cell that an object fills is cut down to it.
+        depth: u32,
+    },
 }
 
 /// Depth bound where a rule names none: 8 + 1.3 floor(log2 N), rounded, as in pbrt (3rd edition, 4.4.1).
@@ -68,7 +76,7 @@ impl StopRule {
     /// The depth at which every node becomes a leaf.
     pub(super) fn depth_bound(self, objects: usize) -> usize {
         match self {
-            Self::Depth(depth) => depth as usize,
+            Self::Depth(depth) | Self::Octree { depth, .. } => depth as usize,
             Self::Objects { depth, .. } | Self::CostK { depth, .. } | Self::CostGain { depth } => {
                 depth.map_or_else(|| default_depth(objects), |d| d as usize)
             }
@@ -86,9 +94,15 @@ impl StopRule {
         }
     }
 
+    /// Whether planes that keep all objects on both sides are taken.
+    pub(super) fn takes_useless_planes(self) -> bool {
+        matches!(self, Self::Depth(_) | Self::Octree { .. })
+    }
+
     /// Whether a node of `n` objects is a leaf before any plane is looked at; `share` is SA(K)/SA(R).
-    pub(super) fn stops_at(self, n: usize, share: f64) -> bool {
+    pub(super) fn stops_at(self, depth: usize, n: usize, share: f64) -> bool {
         match self {
+            Self::Octree { limit, .. } => depth.is_multiple_of(3) && n <= limit as usize,
             Self::Depth(_) => false,
             Self::Objects { limit, .. } => n <= limit as usize,
             Self::CostK { k, .. } => n as f64 * share <= k,
@@ -111,6 +125,7 @@ impl fmt::Display for StopRule {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let depth = match *self {
             Self::Depth(d) => return write!(f, "depth:{d}"),
+            Self::Octree { limit, depth } => return write!(f, "octree:{limit}:{depth}"),
             Self::Objects { limit, depth } => {
                 write!(f, "objects:{limit}")?;
                 depth
@@ -138,9 +153,9 @@ impl FromStr for StopRule {
     fn from_str(text: &str) -> Result<Self, String> {
         let wrong = || {
             format!(
-                "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D], cost-gain[:D] or \
-                 automatic[:D] with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH} (of depth:D at most {MAX_FULL_DEPTH}, a full \
-                 tree of 2^{} nodes), e.g. objects:2:16",
+                "'{text}' is no stop rule; expected depth:D, objects:N[:D], cost-k:K[:D], cost-gain[:D], \
+                 automatic[:D] or octree:N:D with N >= 1, K >= 0 and a depth D of at most {MAX_DEPTH} (of depth:D and \
+                 octree:N:D at most {MAX_FULL_DEPTH}, a full tree of 2^{} nodes; of octree:N:D a multiple of 3), e.g. objects:2:16",
                 MAX_FULL_DEPTH + 1
             )
         };
@@ -167,6 +182,14 @@ impl FromStr for StopRule {
             }
             ("objects", Some(n)) => match n.parse() {
                 Ok(limit) if limit > 0 => Ok(Self::Objects { limit, depth }),
+                _ => Err(wrong()),
+            },
+            ("octree", Some(n)) => match (n.parse(), depth) {
+                (Ok(limit), Some(depth))
+                    if limit > 0 && depth <= MAX_FULL_DEPTH && depth.is_multiple_of(3) =>
+                {
+                    Ok(Self::Octree { limit, depth })
+                }
                 _ => Err(wrong()),
             },
             ("cost-k", Some(k)) => match k.parse() {
@@ -212,6 +235,7 @@ mod tests {
             "cost-gain:40",
             "automatic",
             "automatic:16",
+            "octree:2:21",
         ] {
             let rule: StopRule = text.parse().expect(text);
             assert_eq!(rule.to_string(), text);
@@ -229,6 +253,10 @@ mod tests {
             "cost-gain:x",
             "objects:2:16:1",
             "automatic:129",
+            "octree:2",
+            "octree:2:16",
+            "octree:2:24",
+            "octree:0:15",
             "automatic:",
         ] {
             assert!(text.parse::<StopRule>().is_err(), "{text}");

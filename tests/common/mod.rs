@@ -82,13 +82,14 @@ pub fn hard_lines(bounds: &[Aabb], n: usize) -> Vec<Line> {
 }
 
 /// Strategies and stop rules that property tests go over.
-pub const STOPS: [&str; 6] = [
+pub const STOPS: [&str; 7] = [
     "objects:2:16",
     "objects:1",
     "cost-gain",
     "automatic",
     "cost-k:0.5",
     "depth:6",
+    "octree:3:9",
 ];
 
 /// A rule as parsed.

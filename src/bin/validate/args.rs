@@ -81,8 +81,8 @@ pub enum Command {
         /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
         scene: String,
-        /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]` or
-        /// `automatic[:D]`.
+        /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]`,
+        /// `automatic[:D]` or `octree:N:D`.
         #[arg(long, default_value = "cost-gain", value_name = "RULE")]
         stop: sahlab::kd::StopRule,
         /// Write the scene with its camera, lights and materials to this file instead, for other renderers.
