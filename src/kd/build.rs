@@ -13,6 +13,7 @@ use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis, Objects};
 
 use super::clip::Clipping;
+use super::medians::{clipped_centre, object_median, samples, spatial_median};
 use super::strategy::Positions;
 use super::sweep::{Event, Split, Sweep, sorted_events};
 use super::{Node, StopRule, Strategy, Tree};
@@ -212,7 +213,7 @@ impl Builder<'_> {
         region: Region,
         positions: Positions,
     ) -> Option<Split> {
-        let spatial = 0.5 * bounds.lo[axis] + 0.5 * bounds.hi[axis];
+        let spatial = spatial_median(bounds, axis);
         let mut medians = || {
             self.object_median(bounds, axis, region)
                 .map(|object| (spatial.min(object), spatial.max(object)))
@@ -237,8 +238,7 @@ impl Builder<'_> {
             }
             Positions::Samples(count) => {
                 let (a, b) = medians()?;
-                let between = |i: u16| a + (b - a) * (f64::from(i) / f64::from(count + 1));
-                (0..=count).map(between).chain([b]).collect()
+                samples(a, b, count)
             }
         };
         // Medians that meet, and samples between nearly equal ones, are one candidate.
@@ -254,27 +254,14 @@ impl Builder<'_> {
         sweep.cheapest(window, &extra)
     }
 
-    /// Median of the centres of the objects' bounds clipped to the node; the mean of the middle two of an even number.
+    /// Median of the centres of the objects' bounds clipped to the node.
     fn object_median(&mut self, bounds: &Aabb, axis: Axis, region: Region) -> Option<f64> {
-        let (lo, hi) = (bounds.lo[axis], bounds.hi[axis]);
         let all: &[Aabb] = &self.bounds;
-        let clipped_centre = |&object: &u32| {
-            let b = &all[object as usize];
-            0.5 * b.lo[axis].max(lo) + 0.5 * b.hi[axis].min(hi)
-        };
+        let centre = |&object: &u32| clipped_centre(&all[object as usize], bounds, axis);
         self.centres.clear();
         self.centres
-            .extend(self.objects[region.objects..].iter().map(clipped_centre));
-        let n = self.centres.len();
-        if n == 0 {
-            return None;
-        }
-        let (below, &mut upper, _) = self.centres.select_nth_unstable_by(n / 2, f64::total_cmp);
-        if n % 2 == 1 {
-            return Some(upper);
-        }
-        let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-        Some(0.5 * lower + 0.5 * upper)
+            .extend(self.objects[region.objects..].iter().map(centre));
+        object_median(&mut self.centres)
     }
 
     /// Sort the node's lists into the children's. Returns where the left child's begin, on top, and where the right

@@ -8,6 +8,8 @@ pub mod audit;
 pub mod build;
 mod clip;
 pub mod count;
+pub mod curve;
+mod medians;
 pub mod octree;
 pub mod predict;
 pub mod probe;

@@ -90,11 +90,9 @@ impl Sweep<'_> {
     /// `extra` (ascending), all strictly inside the node.
     pub fn cheapest(&self, window: Option<(f64, f64)>, extra: &[f64]) -> Option<Split> {
         let (lo, hi) = (self.bounds.lo[self.axis], self.bounds.hi[self.axis]);
-        let window = window.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
-        let in_window = |s: f64| window.0 <= s && s <= window.1;
         let coster = Coster::new(self);
         let mut best: Option<Split> = None;
-        let mut offer = |s: f64, left: usize, planar: usize, right: usize| {
+        self.each(window, extra, |s, left, planar, right| {
             if !(lo < s && s < hi) {
                 return;
             }
@@ -103,8 +101,21 @@ impl Sweep<'_> {
             {
                 best = Some(split);
             }
-        };
+        });
+        best
+    }
 
+    /// Offer each object bound inside `window` and each position of `extra` (ascending), with the number of objects that
+    /// go left, lie in the plane, and go right.
+    #[inline]
+    pub fn each(
+        &self,
+        window: Option<(f64, f64)>,
+        extra: &[f64],
+        mut offer: impl FnMut(f64, usize, usize, usize),
+    ) {
+        let window = window.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
+        let in_window = |s: f64| window.0 <= s && s <= window.1;
         // Left of the first event: objects that start below the node are on the left, all are on the right.
         let begun = self
             .events
@@ -141,12 +152,11 @@ impl Sweep<'_> {
         for x in extra {
             offer(x, left, 0, right);
         }
-        best
     }
 }
 
 /// The split cost on one axis as a function of the position and the counts.
-struct Coster<'a> {
+pub(super) struct Coster<'a> {
     sweep: &'a Sweep<'a>,
     lo: f64,
     hi: f64,
@@ -158,7 +168,7 @@ struct Coster<'a> {
 }
 
 impl<'a> Coster<'a> {
-    fn new(sweep: &'a Sweep<'a>) -> Self {
+    pub fn new(sweep: &'a Sweep<'a>) -> Self {
         let k = sweep.axis;
         let extent = sweep.bounds.extent();
         Self {
@@ -173,7 +183,7 @@ impl<'a> Coster<'a> {
 
     /// The split at s with `planar` objects on its cheaper side (left on a tie), or `None` if it is no candidate.
     #[inline]
-    fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
+    pub fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
         let Sweep {
             axis,
             n,
