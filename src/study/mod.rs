@@ -4,6 +4,7 @@ pub mod hits;
 pub mod identity;
 pub mod lines;
 pub mod plan;
+pub mod record;
 pub mod records;
 pub mod store;
 pub mod strategies;
@@ -15,7 +16,7 @@ use crate::scene::Scene;
 
 pub use lines::LineRule;
 pub use plan::{Kind, Plan, PlanError};
-use store::{Store, StoreError};
+use store::{EXPERIMENT, Store, StoreError};
 pub use watcher::Watcher;
 
 /// Version of the layout of `data/`.
@@ -51,9 +52,14 @@ pub fn run(
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
     match &plan.kind {
-        Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher),
-        Kind::Strategies(asked) => strategies::run(plan, asked, scenes, store, watcher),
+        Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher)?,
+        Kind::Strategies(asked) => strategies::run(plan, asked, scenes, store, watcher)?,
     }
+    // Last: what a stopped run leaves is still the record of the one before.
+    if let Some(record) = &plan.record {
+        store.write(EXPERIMENT, record.recorded(scenes).as_bytes())?;
+    }
+    Ok(())
 }
 
 /// What a run would do, a line a cell.

@@ -7,8 +7,8 @@ use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use thiserror::Error;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
@@ -17,6 +17,7 @@ use crate::cost::CostModel;
 use crate::kd::Strategy;
 
 use super::hits::HitsVsArea;
+use super::record::Record;
 use super::records::Summary;
 use super::strategies::Strategies;
 use super::{LEVEL, LineRule, SCHEMA};
@@ -40,6 +41,8 @@ pub struct Plan {
     pub quick: bool,
     /// What its kind asks for besides.
     pub kind: Kind,
+    /// What it was read from, if from an experiment's text: enough to repeat it.
+    pub record: Option<Record>,
 }
 
 /// The kinds of experiment there are.
@@ -127,6 +130,20 @@ pub enum PlanError {
     },
 }
 
+impl PlanError {
+    /// A fault at a byte of a file's text.
+    pub(super) fn at(text: &str, path: &str, offset: usize, message: String) -> Self {
+        let before = &text[..offset.min(text.len())];
+        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
+        Self::Syntax {
+            path: path.into(),
+            line: before.matches('\n').count() + 1,
+            column: before[line_start..].chars().count() + 1,
+            message,
+        }
+    }
+}
+
 /// Names of folders that are no run's under `data/`.
 const RESERVED: [&str; 3] = ["published", "reference", "bench"];
 
@@ -150,7 +167,8 @@ struct Head {
 }
 
 /// What the command line may change.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Overrides {
     /// Another seed.
     pub seed: Option<u64>,
@@ -161,6 +179,15 @@ pub struct Overrides {
 }
 
 impl Overrides {
+    /// These, and where they are silent, others.
+    pub fn or(self, others: Self) -> Self {
+        Self {
+            seed: self.seed.or(others.seed),
+            lines: self.lines.or(others.lines),
+            quick: self.quick || others.quick,
+        }
+    }
+
     /// As arguments of the command line, each with a space before it.
     pub fn arguments(&self) -> String {
         let mut text = String::new();
@@ -188,23 +215,17 @@ impl Plan {
         Self::parse(&text, &path.display().to_string(), &stem, overrides)
     }
 
-    /// Parse an experiment's text; `path` names it in errors, `name` its folders.
+    /// Parse an experiment's text; `path` names it in errors, `name` its folders. The text kept with a run (see [`Record`])
+    /// gives that run again: its own name, and its options where `overrides` has none.
     pub fn parse(
         text: &str,
         path: &str,
         name: &str,
         overrides: Overrides,
     ) -> Result<Self, PlanError> {
-        let at = |offset: usize, message: String| {
-            let before = &text[..offset.min(text.len())];
-            let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-            PlanError::Syntax {
-                path: path.into(),
-                line: before.matches('\n').count() + 1,
-                column: before[line_start..].chars().count() + 1,
-                message,
-            }
-        };
+        let record = Record::read(text, path, name, overrides)?;
+        let (text, name, overrides) = (&*record.text, &*record.experiment, record.overrides);
+        let at = |offset: usize, message: String| PlanError::at(text, path, offset, message);
         let syntax =
             |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), one_line(e.message()));
         let value = |message: &str| PlanError::Value {
@@ -250,7 +271,7 @@ impl Plan {
             }
             _ => full,
         };
-        plan.command = format!("validate run {path}{}", overrides.arguments());
+        plan.command = format!("validate run {}{}", record.path, overrides.arguments());
         if let Some(seed) = overrides.seed {
             plan.seed = seed;
         }
@@ -260,6 +281,7 @@ impl Plan {
                 message,
             })?;
         }
+        plan.record = Some(record);
         Ok(plan)
     }
 
@@ -293,6 +315,7 @@ impl Plan {
             cost: head.cost,
             quick: false,
             kind,
+            record: None,
         })
     }
 
@@ -437,7 +460,7 @@ fn place(table: &DeTable, key: &str) -> Option<usize> {
     found
 }
 
-fn one_line(message: &str) -> String {
+pub(super) fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 

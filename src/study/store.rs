@@ -1,7 +1,7 @@
 //! The files of a run under `data/NAME/`: finished cells are found again, so that a stopped run resumes.
 //!
 //! `cells/ID.json` holds a finished cell, `timings.csv` the seconds; the other files are put together from them at the
-//! end. `README.md` says what all of them hold.
+//! end, and beside them goes `experiment.toml`, what was asked for. `README.md` says what all of them hold.
 
 use std::fs;
 use std::io;
@@ -36,6 +36,9 @@ const DICTIONARY: &str = include_str!("../../data/README.md");
 
 /// The file of seconds, the only one that is not reproducible.
 pub const TIMINGS: &str = "timings.csv";
+
+/// The file that has the experiment's text and how it was run.
+pub const EXPERIMENT: &str = "experiment.toml";
 
 /// A finished cell on disk, with the program that made it: another program's cells are made anew.
 #[derive(Serialize, Deserialize)]
@@ -148,6 +151,7 @@ mod tests {
             "samplers.csv",
             TIMINGS,
             "summary.json",
+            EXPERIMENT,
             "tables/",
             "cells/",
         ] {

@@ -180,6 +180,7 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
                 gate: 0.001,
             },
         }),
+        record: None,
     };
     let scenes = run::load_scenes(&mut plan, None)?;
     let quick = if common.quick { "-quick" } else { "" };
