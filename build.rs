@@ -1,6 +1,8 @@
-//! Gives the program a revision that needs no git: a hash of its sources and locked dependencies.
+//! Gives the program a revision that needs no git, a hash of its sources and locked dependencies, and tells it the compiler
+//! and the target it was made with.
 
 use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::{env, fs};
 
 use sha2::{Digest, Sha256};
@@ -24,6 +26,17 @@ fn main() {
         .map(|b| format!("{b:02x}"))
         .collect();
     println!("cargo::rustc-env=SAHLAB_REVISION={digits}");
+    println!("cargo::rustc-env=SAHLAB_RUSTC={}", compiler());
+    let target = env::var("TARGET").expect("cargo sets it");
+    println!("cargo::rustc-env=SAHLAB_TARGET={target}");
+}
+
+/// What `rustc --version` says, e.g. `rustc 1.89.0 (29483883e 2025-08-04)`.
+fn compiler() -> String {
+    let rustc = env::var_os("RUSTC").expect("cargo sets it");
+    let output = Command::new(rustc).arg("--version").output();
+    let output = output.expect("the compiler can be asked for its version");
+    String::from_utf8_lossy(&output.stdout).trim().into()
 }
 
 fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {

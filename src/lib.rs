@@ -6,8 +6,9 @@
 //! library builds the trees, draws the lines, counts, and compares, with an error beside every number.
 //!
 //! The layers, each using only those before it: [`geom`] and [`cost`]; [`scene`]; [`rays`]; [`kd`]; [`tracer`];
-//! [`stats`]; [`study`]; [`report`].
+//! [`stats`]; [`study`]; [`report`]; [`archive`].
 
+pub mod archive;
 pub mod cost;
 pub mod files;
 pub mod geom;

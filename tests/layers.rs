@@ -6,7 +6,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// A module and the modules it may use.
-const ALLOWED: [(&str, &[&str]); 11] = [
+const ALLOWED: [(&str, &[&str]); 12] = [
     ("cost", &[]),
     ("files", &[]),
     ("geom", &[]),
@@ -23,10 +23,12 @@ const ALLOWED: [(&str, &[&str]); 11] = [
     ),
     // Only the records of a study: checked below.
     ("report", &["files", "study"]),
+    ("archive", &["files", "study"]),
     (
         "lib",
         &[
-            "cost", "files", "geom", "kd", "rays", "report", "scene", "stats", "study", "tracer",
+            "archive", "cost", "files", "geom", "kd", "rays", "report", "scene", "stats", "study",
+            "tracer",
         ],
     ),
 ];

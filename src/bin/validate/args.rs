@@ -6,8 +6,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// How well does the surface area heuristic predict what ray tracing through a kd-tree really costs?
 ///
-/// Without a command: the default study, about half a minute. It writes data/validate and plots/validate and ends with
-/// a one-screen summary.
+/// Without a command: the default study, about half a minute. It writes data/validate, plots/validate and
+/// archives/validate.tar.gz and ends with a one-screen summary.
 ///
 /// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run.
 #[derive(Parser)]
@@ -31,7 +31,8 @@ const EXAMPLES: &str = "Examples:
 /// Flags of every command.
 #[derive(Args, Clone)]
 pub struct Common {
-    /// Folder that gets data/NAME and plots/NAME [default: the current one; for `plots` and `tables` the run's own].
+    /// Folder that gets data/NAME and plots/NAME [default: the current one; for `plots` and `tables` the run's own]; for
+    /// `archive` and `verify` see there.
     #[arg(short, long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Seed of the lines, instead of the experiment's; a count as for --lines.
@@ -108,6 +109,28 @@ pub enum Command {
         /// Data folder of the run, e.g. data/validate.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
+    },
+    /// Pack finished runs into one archive that anyone can check and repeat.
+    ///
+    /// Writes archives/NAME.tar.gz, the same bytes for the same runs; --out FILE.tar.gz names another file, --out DIR the
+    /// folder that gets archives/. With SOURCE_DATE_EPOCH set, its files have that time, else none.
+    Archive {
+        /// Data folders of the runs, e.g. data/validate.
+        #[arg(required = true, value_name = "DIR")]
+        folders: Vec<PathBuf>,
+    },
+    /// Check an archive against its manifest, and with --replay run everything in it again.
+    ///
+    /// Exit codes: 0 all as it should be; 1 something differs, and every difference is told; 2 no archive of runs, or one
+    /// that could do harm; nothing of it is unpacked.
+    Verify {
+        /// The archive.
+        #[arg(value_name = "FILE.tar.gz")]
+        file: PathBuf,
+        /// Repeat every run from its experiment's text alone, in a temporary folder or an empty --out DIR, and compare all
+        /// data but times byte for byte.
+        #[arg(long)]
+        replay: bool,
     },
     /// Copy finished runs to data/published and plots/published and put their figures into README.md.
     Publish {

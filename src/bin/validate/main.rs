@@ -1,5 +1,6 @@
 //! `validate`: the command line of sahlab.
 
+mod archive;
 mod args;
 mod output;
 mod progress;
@@ -65,7 +66,15 @@ fn execute(cli: &Cli) -> Result<bool> {
             let (name, text) = EXPERIMENTS[0];
             let path = format!("experiments/{name}.toml");
             let plan = Plan::parse(text, &path, name, overrides)?;
-            run_plans(vec![(path.into(), plan)], common)
+            let data = common.root().join("data").join(&plan.name);
+            let held = run_plans(vec![(path.into(), plan)], common)?;
+            if !common.dry_run {
+                let file = archive::pack_below(&[data], common.root())?;
+                if !common.json {
+                    print(&format!("archive {}\n", file.display()))?;
+                }
+            }
+            Ok(held)
         }
         Some(Command::Run { experiments }) => {
             let plans = experiments
@@ -101,6 +110,8 @@ fn execute(cli: &Cli) -> Result<bool> {
             print(&paths(&files))?;
             Ok(true)
         }
+        Some(Command::Archive { folders }) => archive::pack(folders, common),
+        Some(Command::Verify { file, replay }) => archive::verify(file, *replay, common),
         Some(Command::Publish { names }) => publish::publish(common.root(), names, !common.quiet),
     }
 }

@@ -1,0 +1,230 @@
+//! Archives of finished runs: one `.tar.gz` from which anyone can check the files and repeat the runs.
+//!
+//! [`pack`] writes one, the same bytes for the same runs; [`verify`] reads one without trusting it; [`compare`] holds a
+//! repeated run against it. In an archive, under one folder `NAME/`:
+//!
+//! ```text
+//! manifest-sha256.txt    digest of every other file, as `sha256sum -c` reads it
+//! README.md              what this is, how to check and how to repeat it
+//! environment.json       program, compiler and machine
+//! Cargo.lock             the dependencies
+//! experiments/RUN.toml   what to run again
+//! data/RUN/  plots/RUN/  what came out
+//! ```
+
+mod environment;
+mod manifest;
+mod pack;
+mod readme;
+mod replay;
+mod verify;
+mod walk;
+
+use std::collections::BTreeMap;
+use std::fmt;
+use std::io::{self, Read};
+use std::path::PathBuf;
+
+use sha2::{Digest, Sha256};
+
+use crate::study::plan::is_folder_name;
+use crate::study::store::{EXPERIMENT, TIMINGS};
+
+pub use environment::processor;
+pub use pack::{Packed, RunFolders, pack};
+pub use replay::{Compared, Difference, compare};
+pub use verify::{Fault, Verified, verify};
+
+/// Whether a file of a run, by its path below `data/RUN/`, holds times: the only files that differ from run to run.
+pub fn holds_times(path: &str) -> bool {
+    let name = path.rsplit('/').next().unwrap_or(path);
+    name == TIMINGS || name.starts_with("times-")
+}
+
+/// How much an archive may hold: no more is packed, and no more is read.
+struct Limits {
+    /// Files.
+    files: usize,
+    /// Bytes of one file.
+    file: u64,
+    /// Bytes of all.
+    all: u64,
+}
+
+const LIMITS: Limits = Limits {
+    files: 1 << 16,
+    file: 2 << 30,
+    all: 4 << 30,
+};
+
+impl Limits {
+    /// Whether so many files, the largest and all of them so large, are too much.
+    fn are_passed(&self, files: usize, file: u64, all: u64) -> bool {
+        files > self.files || file > self.file || all > self.all
+    }
+}
+
+impl fmt::Display for Limits {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { files, file, all } = self;
+        write!(
+            f,
+            "at most {files} files, {file} bytes in one and {all} in all"
+        )
+    }
+}
+
+/// Most bytes that are kept in memory of what is read: of the manifest and the experiments together.
+const MOST_KEPT: u64 = 16 << 20;
+
+const MANIFEST: &str = "manifest-sha256.txt";
+
+/// Why an archive cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum ArchiveError {
+    /// A file cannot be read.
+    #[error("{path}: cannot read", path = path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// The archive cannot be written.
+    #[error("{path}: cannot write", path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Something that cannot be packed.
+    #[error("{path}: {what}", path = path.display())]
+    Unfit {
+        /// The file or folder.
+        path: PathBuf,
+        /// What is wrong, and what would be right.
+        what: String,
+    },
+    /// The variable `SOURCE_DATE_EPOCH` makes no sense.
+    #[error("SOURCE_DATE_EPOCH is '{0}', expected whole seconds since 1970, below 2^32")]
+    Epoch(String),
+    /// A file that is not an archive, or not one that may be trusted.
+    #[error("{path}: no archive of runs: {what}", path = path.display())]
+    Refused {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+/// Size and digest of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct Facts {
+    size: u64,
+    sha256: [u8; 32],
+}
+
+/// Files by their path below the archive's folder, in the order of the bytes of the path.
+type Files = BTreeMap<String, Facts>;
+
+/// A reader that knows size and digest of what has been read through it.
+struct Digesting<R> {
+    inner: R,
+    size: u64,
+    hash: Sha256,
+}
+
+impl<R: Read> Digesting<R> {
+    fn new(inner: R) -> Self {
+        Self {
+            inner,
+            size: 0,
+            hash: Sha256::new(),
+        }
+    }
+
+    /// Reads what is left and gives the facts of all.
+    fn finish(mut self) -> io::Result<Facts> {
+        io::copy(&mut self, &mut io::sink())?;
+        Ok(Facts {
+            size: self.size,
+            sha256: self.hash.finalize().into(),
+        })
+    }
+}
+
+impl<R: Read> Read for Digesting<R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let n = self.inner.read(buffer)?;
+        self.size += n as u64;
+        self.hash.update(&buffer[..n]);
+        Ok(n)
+    }
+}
+
+/// Whether a path below the archive's folder is plain: relative, no `.` or `..`, nothing that a terminal, a manifest or
+/// another system would read differently.
+fn is_plain(path: &str) -> bool {
+    let plain = |c: char| !c.is_control() && c != '\\' && c != ':';
+    path.chars().all(plain) && path.split('/').all(|part| !matches!(part, "" | "." | ".."))
+}
+
+/// The run of which a file is the experiment's text.
+fn run_of_experiment(path: &str) -> Option<&str> {
+    let run = path.strip_prefix("experiments/")?.strip_suffix(".toml")?;
+    is_folder_name(run).then_some(run)
+}
+
+/// The run to which a file of data belongs, and its path below the run's folder.
+fn run_of_data(path: &str) -> Option<(&str, &str)> {
+    path.strip_prefix("data/")?.split_once('/')
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_plain_paths() {
+        for path in ["README.md", "data/e/tables/cells.md", "a b", "ä/..x"] {
+            assert!(is_plain(path), "{path}");
+        }
+        for path in [
+            "", "/a", "a/", "a//b", ".", "a/./b", "../a", "a/..", "a\\b", "c:a", "a\nb",
+        ] {
+            assert!(!is_plain(path), "{path}");
+        }
+    }
+
+    #[test]
+    fn times_are_told_by_their_name() {
+        for path in ["timings.csv", "times-x.csv", "tables/times-y.md"] {
+            assert!(holds_times(path), "{path}");
+        }
+        for path in [
+            "cells.csv",
+            "sometimes-x.csv",
+            "times-x/cells.csv",
+            "timings.csv.md",
+        ] {
+            assert!(!holds_times(path), "{path}");
+        }
+    }
+
+    #[test]
+    fn runs_are_told_by_the_path() {
+        assert_eq!(run_of_experiment("experiments/a.b.toml"), Some("a.b"));
+        for path in [
+            "experiments/a",
+            "experiments/x/a.toml",
+            "experiments/.toml",
+            "a.toml",
+        ] {
+            assert_eq!(run_of_experiment(path), None, "{path}");
+        }
+        assert_eq!(run_of_data("data/e/tables/x"), Some(("e", "tables/x")));
+        assert_eq!(run_of_data("data/e"), None);
+    }
+}

@@ -1,0 +1,203 @@
+//! Archives of finished runs: writing them, checking them, repeating what they hold.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::{Path, PathBuf};
+
+use anyhow::{Context, Result, bail};
+use sahlab::REVISION;
+use sahlab::archive::{self, Compared, RunFolders, Verified};
+use sahlab::scene::Scene;
+use sahlab::study::plan::Overrides;
+use sahlab::study::{self, Plan};
+
+use crate::args::Common;
+use crate::output::{note, print};
+use crate::run;
+
+/// `validate archive`. With `--out` a file, if it ends in `.tar.gz`, or the folder that gets `archives/NAME.tar.gz`.
+pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
+    let file = common.out.as_deref().filter(|out| is_archive_name(out));
+    if common.dry_run {
+        let packed = gather(folders)?;
+        let lines = packed.files().map(|(path, size)| {
+            let name = packed.name();
+            format!("{size:>12}  {name}/{path}\n")
+        });
+        print(&lines.collect::<String>())?;
+        return Ok(true);
+    }
+    let written = match file {
+        Some(file) => {
+            gather(folders)?.write(file)?;
+            file.to_path_buf()
+        }
+        None => pack_below(folders, common.root())?,
+    };
+    print(&format!("{}\n", written.display()))?;
+    Ok(true)
+}
+
+/// Write `archives/NAME.tar.gz` below a root; gives the file.
+pub fn pack_below(folders: &[PathBuf], root: &Path) -> Result<PathBuf> {
+    let packed = gather(folders)?;
+    let file = root
+        .join("archives")
+        .join(format!("{}.tar.gz", packed.name()));
+    packed.write(&file)?;
+    Ok(file)
+}
+
+fn is_archive_name(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    name.ends_with(".tar.gz")
+}
+
+fn gather(folders: &[PathBuf]) -> Result<archive::Packed> {
+    let runs = folders.iter().map(|data| {
+        let name = run::name_of(data)?.to_string_lossy().into_owned();
+        // The folder as given may be `.`, which has no `plots` beside it.
+        let whole = data
+            .canonicalize()
+            .with_context(|| format!("{}: cannot read", data.display()))?;
+        Ok(RunFolders {
+            name,
+            data: data.clone(),
+            plots: run::plots_of(&whole)?,
+        })
+    });
+    Ok(archive::pack(&runs.collect::<Result<Vec<_>>>()?)?)
+}
+
+/// `validate verify`. Says whether all is as it should be.
+pub fn verify(file: &Path, replay: bool, common: &Common) -> Result<bool> {
+    if common.seed.is_some() || common.lines.is_some() || common.quick {
+        bail!(
+            "an archive's runs are repeated as they were; leave --seed, --lines and --quick away"
+        );
+    }
+    let verified = archive::verify(file)?;
+    let (files, bytes) = verified.size();
+    let mut text = String::new();
+    for fault in &verified.faults {
+        text += &format!("{fault}\n");
+    }
+    let name = &verified.name;
+    text += &match verified.faults.len() {
+        0 => format!("{name}: {files} files, {bytes} bytes, all as in the manifest\n"),
+        n => format!("{name}: {n} of {files} files not as in the manifest\n"),
+    };
+    print(&text)?;
+    if !verified.faults.is_empty() {
+        return Ok(false);
+    }
+    if replay {
+        return repeat(file, &verified, common);
+    }
+    Ok(true)
+}
+
+/// Run every experiment of an archive again, from its text alone, and compare what comes out.
+fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
+    let mut loaded = Vec::new();
+    for (name, text) in &verified.experiments {
+        loaded.push(load(file, name, text, common)?);
+    }
+    if loaded.is_empty() {
+        bail!("{}: no experiment to run in it", file.display());
+    }
+    if common.dry_run {
+        for (plan, scenes) in &loaded {
+            print(&study::describe(plan, scenes))?;
+        }
+        return Ok(true);
+    }
+    let root = fresh_folder(common.out.as_deref())?;
+    let anew = Common {
+        out: Some(root.clone()),
+        // A summary of what is only repeated would hide what matters: whether it came out the same.
+        json: true,
+        force: true,
+        ..common.clone()
+    };
+    let compared =
+        run_again(&loaded, &anew).and_then(|()| Ok(archive::compare(file, verified, &root)?));
+    // What differs stays, to be looked at.
+    let differs = |c: &Compared| !c.differences.is_empty();
+    if common.out.is_none() && !compared.as_ref().is_ok_and(differs) {
+        fs::remove_dir_all(&root).with_context(|| format!("{}: cannot remove", root.display()))?;
+    }
+    let compared = compared?;
+    let mut text = String::new();
+    for difference in &compared.differences {
+        text += &format!("{difference}\n");
+    }
+    let (equal, others) = (compared.equal, compared.differences.len());
+    let same = others == 0;
+    text += &match others {
+        0 => format!("replayed: all {equal} files of data equal (those with times left out)\n"),
+        _ => format!(
+            "replayed: {others} of {} files of data not equal; the repeated runs are in {}\n",
+            equal + others,
+            root.display()
+        ),
+    };
+    print(&text)?;
+    Ok(same)
+}
+
+fn run_again(runs: &[(Plan, Vec<Scene>)], common: &Common) -> Result<()> {
+    for (plan, scenes) in runs {
+        run::prepare(plan, common)?;
+        run::run(plan, scenes, common, |_| String::new())?;
+    }
+    Ok(())
+}
+
+/// An archived run, ready to be repeated.
+fn load(file: &Path, name: &str, text: &str, common: &Common) -> Result<(Plan, Vec<Scene>)> {
+    let place = format!("{}:experiments/{name}.toml", file.display());
+    let mut plan = Plan::parse(text, &place, name, Overrides::default())?;
+    let recorded = plan.record.as_ref().and_then(|r| r.revision.clone());
+    let Some(revision) = recorded.filter(|_| plan.name == name) else {
+        bail!("{place}: not the text that was kept with the run '{name}'");
+    };
+    if revision != REVISION && !common.quiet {
+        note(&format!(
+            "{name}: made by revision {revision} of the program, repeated by revision {REVISION}"
+        ));
+    }
+    let scenes = run::load_scenes(&mut plan, Some(Path::new(&place)))?;
+    Ok((plan, scenes))
+}
+
+/// The folder asked for, if nothing is in it, or a new one for temporary files.
+fn fresh_folder(wanted: Option<&Path>) -> Result<PathBuf> {
+    if let Some(folder) = wanted {
+        let unwritable = || format!("{}: cannot write", folder.display());
+        fs::create_dir_all(folder).with_context(unwritable)?;
+        if fs::read_dir(folder)
+            .with_context(unwritable)?
+            .next()
+            .is_some()
+        {
+            bail!(
+                "{}: not empty; name a new folder to repeat the runs in",
+                folder.display()
+            );
+        }
+        return Ok(folder.into());
+    }
+    let id = std::process::id();
+    let mut number = 0;
+    loop {
+        let folder = std::env::temp_dir().join(format!("sahlab-replay-{id}-{number}"));
+        match fs::create_dir(&folder) {
+            Ok(()) => return Ok(folder),
+            Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
+            Err(error) => {
+                return Err(error).with_context(|| format!("{}: cannot write", folder.display()));
+            }
+        }
+    }
+}
