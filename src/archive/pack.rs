@@ -69,12 +69,12 @@ pub struct Packed {
     files: Files,
 }
 
-/// Gather finished runs. The archive is named after them.
+/// Gather finished runs. The archive is named after them, if it is given no name of its own.
 ///
 /// # Errors
 /// If a run is not finished, lacks its experiment's text or its figures, was made by another program (whose dependencies
 /// would be packed wrongly), or has files that do not belong in an archive.
-pub fn pack(runs: &[RunFolders]) -> Result<Packed, ArchiveError> {
+pub fn pack(runs: &[RunFolders], name: Option<&str>) -> Result<Packed, ArchiveError> {
     let mut runs: Vec<_> = runs.iter().collect();
     runs.sort_by(|a, b| a.name.cmp(&b.name));
     for pair in runs.windows(2) {
@@ -83,7 +83,7 @@ pub fn pack(runs: &[RunFolders]) -> Result<Packed, ArchiveError> {
         }
     }
     let names: Vec<_> = runs.iter().map(|run| run.name.as_str()).collect();
-    let name = names.join("-");
+    let name = name.map_or_else(|| names.join("-"), str::to_owned);
     let mut sources = BTreeMap::new();
     let mut plans = Vec::new();
     for run in runs {

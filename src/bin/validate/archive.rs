@@ -19,7 +19,7 @@ use crate::run;
 pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
     let file = common.out.as_deref().filter(|out| is_archive_name(out));
     if common.dry_run {
-        let packed = gather(folders)?;
+        let packed = gather(folders, None)?;
         let lines = packed.files().map(|(path, size)| {
             let name = packed.name();
             format!("{size:>12}  {name}/{path}\n")
@@ -29,18 +29,18 @@ pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
     }
     let written = match file {
         Some(file) => {
-            gather(folders)?.write(file)?;
+            gather(folders, None)?.write(file)?;
             file.to_path_buf()
         }
-        None => pack_below(folders, common.root())?,
+        None => pack_below(folders, None, common.root())?,
     };
     print(&format!("{}\n", written.display()))?;
     Ok(true)
 }
 
 /// Write `archives/NAME.tar.gz` below a root; gives the file.
-pub fn pack_below(folders: &[PathBuf], root: &Path) -> Result<PathBuf> {
-    let packed = gather(folders)?;
+pub fn pack_below(folders: &[PathBuf], name: Option<&str>, root: &Path) -> Result<PathBuf> {
+    let packed = gather(folders, name)?;
     let file = root
         .join("archives")
         .join(format!("{}.tar.gz", packed.name()));
@@ -53,7 +53,7 @@ fn is_archive_name(path: &Path) -> bool {
     name.ends_with(".tar.gz")
 }
 
-fn gather(folders: &[PathBuf]) -> Result<archive::Packed> {
+fn gather(folders: &[PathBuf], name: Option<&str>) -> Result<archive::Packed> {
     let runs = folders.iter().map(|data| {
         let name = run::name_of(data)?.to_string_lossy().into_owned();
         // The folder as given may be `.`, which has no `plots` beside it.
@@ -66,7 +66,7 @@ fn gather(folders: &[PathBuf]) -> Result<archive::Packed> {
             plots: run::plots_of(&whole)?,
         })
     });
-    Ok(archive::pack(&runs.collect::<Result<Vec<_>>>()?)?)
+    Ok(archive::pack(&runs.collect::<Result<Vec<_>>>()?, name)?)
 }
 
 /// `validate verify`. Says whether all is as it should be.

@@ -28,13 +28,24 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 2] = [
+const EXPERIMENTS: [(&str, &str); 4] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
     ),
+    (
+        "validate-strategies",
+        include_str!("../../../experiments/validate-strategies.toml"),
+    ),
     ("figure3", include_str!("../../../experiments/figure3.toml")),
+    (
+        "strategies",
+        include_str!("../../../experiments/strategies.toml"),
+    ),
 ];
+
+/// So many of them, the first ones, are the default study.
+const DEFAULT: usize = 2;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
@@ -63,13 +74,18 @@ fn execute(cli: &Cli) -> Result<bool> {
     };
     match &cli.command {
         None => {
-            let (name, text) = EXPERIMENTS[0];
-            let path = format!("experiments/{name}.toml");
-            let plan = Plan::parse(text, &path, name, overrides)?;
-            let data = common.root().join("data").join(&plan.name);
-            let held = run_plans(vec![(path.into(), plan)], common)?;
+            let plans = EXPERIMENTS[..DEFAULT].iter().map(|(name, text)| {
+                let path = format!("experiments/{name}.toml");
+                let plan = Plan::parse(text, &path, name, overrides)?;
+                Ok::<_, PlanError>((path.into(), plan))
+            });
+            let plans: Vec<(PathBuf, Plan)> = plans.collect::<Result<_, _>>()?;
+            let names: Vec<String> = plans.iter().map(|(_, plan)| plan.name.clone()).collect();
+            let held = run_plans(plans, common)?;
             if !common.dry_run {
-                let file = archive::pack_below(&[data], common.root())?;
+                let data = common.root().join("data");
+                let folders: Vec<_> = names.iter().map(|name| data.join(name)).collect();
+                let file = archive::pack_below(&folders, Some(&names[0]), common.root())?;
                 if !common.json {
                     print(&format!("archive {}\n", file.display()))?;
                 }
