@@ -86,6 +86,9 @@ pub enum Command {
         /// `automatic[:D]` or `octree:N:D`.
         #[arg(long, default_value = "cost-gain", value_name = "RULE")]
         stop: sahlab::kd::StopRule,
+        /// Clip straddling triangles and polygons to the parts of a node ("perfect splits"): slower to build, fewer tests.
+        #[arg(long)]
+        clipped: bool,
         /// Write the scene with its camera, lights and materials to this file instead, for other renderers.
         #[arg(long, value_name = "FILE")]
         nff: Option<PathBuf>,

@@ -104,7 +104,12 @@ fn execute(cli: &Cli) -> Result<bool> {
             digits,
             ..
         }) => write_nff(scene, file, *digits, common),
-        Some(Command::Scene { scene, stop, .. }) => one_scene(scene, *stop, common, overrides),
+        Some(Command::Scene {
+            scene,
+            stop,
+            clipped,
+            ..
+        }) => one_scene(scene, *stop, *clipped, common, overrides),
         Some(Command::List { what }) => print(&list(*what)).map(|()| true).map_err(Into::into),
         Some(Command::Plots { folder }) => {
             let run = run::read(folder)?;
@@ -171,7 +176,13 @@ fn run_loaded(
 }
 
 /// `validate scene`: the same measurement on one scene, every strategy.
-fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) -> Result<bool> {
+fn one_scene(
+    spec: &str,
+    stop: StopRule,
+    clipped: bool,
+    common: &Common,
+    overrides: Overrides,
+) -> Result<bool> {
     let slope_within = if common.quick { 0.02 } else { 0.005 };
     let lines = match overrides.lines {
         Some(n) => LineRule::exactly(n),
@@ -181,7 +192,8 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
     let mut plan = Plan {
         name: String::new(),
         command: format!(
-            "validate scene {spec} --stop {stop}{}",
+            "validate scene {spec} --stop {stop}{}{}",
+            if clipped { " --clipped" } else { "" },
             overrides.arguments()
         ),
         question: format!(
@@ -194,6 +206,7 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
         kind: Kind::HitsVsArea(HitsVsArea {
             strategies: Strategy::ALL.into(),
             stop,
+            clipped,
             nodes: false,
             lines: lines.map_err(anyhow::Error::msg)?,
             figure: Figure {
@@ -220,7 +233,7 @@ fn one_scene(spec: &str, stop: StopRule, common: &Common, overrides: Overrides) 
             strategy: Strategy::Sah,
             stop,
             cost: plan.cost,
-            clipped: false,
+            clipped,
         };
         let [_, plots] = run::folders(plan, common);
         render::render(&scenes[0], look, &rules, plan.quick, &plots)?;

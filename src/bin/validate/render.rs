@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use anyhow::Result;
-use sahlab::kd::{Rules, build};
+use sahlab::kd::Rules;
 use sahlab::report::render::{Render, figure};
 use sahlab::report::{Bitmap, write_figure};
 use sahlab::scene::{Look, Scene};
+use sahlab::study::hits::cell::build_tree;
 use sahlab::tracer::{PIXELS, RayKind, count, trace};
 
 /// Pixels across and up of the quick form.
@@ -14,7 +15,7 @@ const QUICK_PIXELS: u32 = 128;
 
 /// Trace a scene through the tree of these rules and draw the figure `render` into `plots`.
 pub fn render(scene: &Scene, look: &Look, rules: &Rules, quick: bool, plots: &Path) -> Result<()> {
-    let tree = build(&scene.bounds, scene.world, rules);
+    let tree = build_tree(scene, rules);
     let pixels = if quick { QUICK_PIXELS } else { PIXELS };
     let traced = trace(scene, look, &tree, pixels);
     let counts = count(&traced.rays, &tree, &scene.objects);

@@ -15,6 +15,9 @@ pub struct HitsVsArea {
     pub strategies: Vec<Strategy>,
     /// The stop rule, the same for all.
     pub stop: StopRule,
+    /// Whether straddling triangles and polygons are clipped to the parts of a node.
+    #[serde(default)]
+    pub clipped: bool,
     /// Whether `nodes.csv` has every cell's nodes; otherwise the figure's only.
     #[serde(default)]
     pub nodes: bool,

@@ -30,7 +30,7 @@ fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPl
                 strategy,
                 stop: asked.stop,
                 cost: plan.cost,
-                clipped: false,
+                clipped: asked.clipped,
             };
             let drawn = scene.name == asked.figure.scene && strategy == asked.figure.strategy;
             cells.push(CellPlan {
