@@ -174,9 +174,9 @@ mod tests {
         );
         assert!(message("spd:bals").contains("did you mean spd:balls?"));
         assert!(message("simple").contains("simple: no such scene; scenes are"));
-        let text = message("room.stl");
+        let text = message("room.dxf");
         assert!(
-            text.starts_with("room.stl: cannot read .stl files"),
+            text.starts_with("room.dxf: cannot read .dxf files"),
             "{text}"
         );
         let text = message("no/such/file.obj");
