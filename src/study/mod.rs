@@ -62,6 +62,22 @@ pub fn run(
     Ok(())
 }
 
+/// Whether the scenes have what the kind of experiment needs; the error names the first that has not.
+pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
+    let traces = match plan.kind {
+        Kind::HitsVsArea(_) => false,
+        Kind::Strategies(_) => true,
+    };
+    match scenes.iter().find(|scene| traces && scene.look.is_none()) {
+        Some(scene) => Err(format!(
+            "{}: has no camera and lights, but kind '{}' traces pictures; take a scene named spd: or an .nff file with a view",
+            scene.name,
+            plan.kind.name()
+        )),
+        None => Ok(()),
+    }
+}
+
 /// What a run would do, a line a cell.
 pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
     match &plan.kind {

@@ -40,6 +40,7 @@ pub fn load_scenes(plan: &mut Plan, place: Option<&Path>) -> Result<Vec<Scene>> 
     }
     // Again, now that every scene has its full name: two ways to write one scene are the same scene.
     plan.check().map_err(|wrong| anyhow!("{place}{wrong}"))?;
+    study::check_scenes(plan, &scenes).map_err(|wrong| anyhow!("{place}{wrong}"))?;
     if let Some(record) = &plan.record {
         record
             .check_scenes(&scenes)

@@ -86,8 +86,8 @@ pub fn guess(asked: &Strategies, cells: &[TreeCell]) -> f64 {
     let lights = first.look.stage.lights.len() as f64;
     // An eye ray has about one shadow ray for each second light, and half a secondary ray.
     let rays = eye_rays * (1.5 + 0.5 * lights);
-    let counting = 1.2e-6 * rays + 2e-6 * asked.lines.at_least() as f64;
-    let passes = RayKind::ALL.len() as f64 * asked.timing.pass_s.min(5e-7 * rays);
+    let counting = 5e-7 * rays + 2e-6 * asked.lines.at_least() as f64;
+    let passes = RayKind::ALL.len() as f64 * asked.timing.pass_s.min(1e-7 * rays);
     let building = 2.5e-6 * objects * f64::from(asked.timing.builds);
     trees * (counting + passes * (1.0 + f64::from(asked.timing.rounds)) + building)
 }

@@ -24,7 +24,7 @@ use super::asked::Timing;
 const CHUNK: usize = 64;
 
 /// Fewest chunks of a sample, for its standard error.
-const FEWEST: usize = 32;
+const FEWEST: usize = 128;
 
 /// Halves that are further apart than this tell of a disturbed machine.
 const DISTURBED: f64 = 0.03;
