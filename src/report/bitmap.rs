@@ -21,6 +21,39 @@ impl Bitmap {
         }
     }
 
+    /// The picture on a square of this many pixels a side, each the mean of those it covers; itself if it is not larger.
+    pub fn shrunk_to(&self, side: usize) -> Self {
+        if self.width.min(self.height) <= side {
+            return self.clone();
+        }
+        let cut = |i: usize, length: usize| i * length / side;
+        let mean = |x: usize, y: usize, channel: usize| {
+            let (columns, rows) = (
+                cut(x, self.width)..cut(x + 1, self.width),
+                cut(y, self.height)..cut(y + 1, self.height),
+            );
+            let covered = columns.len() * rows.len();
+            let of_row = |y: usize| {
+                columns
+                    .clone()
+                    .map(move |x| 3 * (y * self.width + x) + channel)
+            };
+            let sum: usize = rows
+                .flat_map(of_row)
+                .map(|i| usize::from(self.rgb[i]))
+                .sum();
+            ((sum + covered / 2) / covered) as u8
+        };
+        let pixels = (0..side).flat_map(|y| (0..side).map(move |x| (x, y)));
+        Bitmap {
+            width: side,
+            height: side,
+            rgb: pixels
+                .flat_map(|(x, y)| [0, 1, 2].map(|channel| mean(x, y, channel)))
+                .collect(),
+        }
+    }
+
     /// The picture as a PNG, with its resolution noted in a pHYs chunk where it has one.
     pub fn png(&self, dots_per_inch: Option<f64>) -> Result<Vec<u8>, png::EncodingError> {
         let mut bytes = Vec::new();
@@ -63,6 +96,37 @@ pub fn base64(bytes: &[u8]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_smaller_picture_has_means() {
+        let picture = Bitmap {
+            width: 4,
+            height: 2,
+            rgb: (0..8u8).flat_map(|i| [10 * i, 0, 255]).collect(),
+        };
+        // Pixels 0, 1, 4, 5 and 2, 3, 6, 7.
+        let small = picture.shrunk_to(1);
+        assert_eq!(
+            (small.width, small.height, small.rgb),
+            (1, 1, vec![35, 0, 255])
+        );
+        assert_eq!(picture.shrunk_to(2), picture);
+        let square = Bitmap {
+            width: 3,
+            height: 3,
+            rgb: (0..9u8).flat_map(|i| [10 * i; 3]).collect(),
+        };
+        // Columns 0 and 1, 2: parts of whole pixels.
+        assert_eq!(
+            square
+                .shrunk_to(2)
+                .rgb
+                .chunks(3)
+                .map(|c| c[0])
+                .collect::<Vec<_>>(),
+            [0, 15, 45, 60]
+        );
+    }
 
     #[test]
     fn base64_is_that_of_the_rfc() {

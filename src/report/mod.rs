@@ -24,6 +24,7 @@ pub mod render;
 pub mod screen;
 mod series;
 mod slopes;
+mod strategies;
 mod svg;
 mod table;
 mod tables;
@@ -40,6 +41,7 @@ pub use bitmap::Bitmap;
 pub use figure::Figure;
 pub use hits::Hits;
 pub use read::{Content, Run, read_run};
+pub use strategies::Strategies;
 pub use table::{Align, Cell, Column, Table};
 
 /// Resolution of the PNG files, in dots per inch.
@@ -80,6 +82,14 @@ pub enum ReportError {
         /// What is missing, and where.
         what: String,
     },
+    /// A picture of a run is not what it should be.
+    #[error("{path}: {what}", path = path.display())]
+    Picture {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
     /// The tables would land on the data they are made from.
     #[error("{path}: holds the data of the run, which cells.csv would overwrite; name another directory", path = path.display())]
     Overwrite {
@@ -107,11 +117,12 @@ pub enum ReportError {
 /// Draws every figure of a run into `out`, as SVG and PNG; gives the files in the order written.
 pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let figures = match &run.content {
-        Content::Hits(hits) => hits.figures(&run.summary)?,
+        Content::Hits(hits) => named(hits.figures(&run.summary)?),
+        Content::Strategies(strategies) => strategies.figures(&run.summary)?,
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
-        files.extend(write_figure(out, name, &figure)?);
+        files.extend(write_figure(out, &name, &figure)?);
     }
     Ok(files)
 }
@@ -130,7 +141,8 @@ pub fn write_figure(out: &Path, name: &str, figure: &Figure) -> Result<[PathBuf;
     Ok([svg, png])
 }
 
-/// Writes every table of a run into `out`, as Markdown, LaTeX and CSV; gives the files in the order written.
+/// Writes every table of a run into `out`, as Markdown, LaTeX and CSV, and its findings in words as Markdown; gives the
+/// files in the order written.
 ///
 /// They name the command of the run as what made them, so that the same run gives the same bytes however often they are
 /// written.
@@ -141,11 +153,18 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
             path: out.to_owned(),
         });
     }
-    let tables = match &run.content {
-        Content::Hits(hits) => hits.tables(&run.summary),
+    let (tables, texts) = match &run.content {
+        Content::Hits(hits) => (named(hits.tables(&run.summary)), Vec::new()),
+        Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();
+    for (name, text) in texts {
+        let path = out.join(format!("{name}.md"));
+        let text = format!("<!-- {} -->\n\n{text}", table::generated_by(command));
+        write(&path, text.as_bytes())?;
+        files.push(path);
+    }
     for (name, table) in tables {
         let texts = [
             ("md", table.to_markdown(command)),
@@ -159,6 +178,12 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         }
     }
     Ok(files)
+}
+
+/// Names of files that are known beforehand.
+fn named<T>(all: Vec<(&str, T)>) -> Vec<(String, T)> {
+    let named = all.into_iter().map(|(name, one)| (name.to_owned(), one));
+    named.collect()
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {

@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::ReportError;
 use super::hits::Hits;
+use super::strategies::Strategies;
 use crate::study::records::Summary;
 
 /// What a finished run left behind.
@@ -26,6 +27,8 @@ pub struct Run {
 pub enum Content {
     /// Kind `hits-vs-area`.
     Hits(Hits),
+    /// Kind `strategies`.
+    Strategies(Strategies),
 }
 
 impl Run {
@@ -33,6 +36,7 @@ impl Run {
     pub fn hits(&self) -> Option<&Hits> {
         match &self.content {
             Content::Hits(hits) => Some(hits),
+            Content::Strategies(_) => None,
         }
     }
 }
@@ -48,6 +52,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         })?;
     let content = match summary.kind.as_str() {
         "hits-vs-area" => Content::Hits(Hits::read(dir)?),
+        "strategies" => Content::Strategies(Strategies::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

@@ -4,16 +4,17 @@ use std::fmt::Write;
 
 use super::number::{counted, grouped, significant};
 use super::table::fold;
-use super::{Content, Hits, Run, tables};
+use super::{Content, Hits, Run, strategies, tables};
 use crate::study::records::{CellRecord, TimingRecord};
 
 /// Columns of the screen.
-const WIDTH: usize = 100;
+pub(in crate::report) const WIDTH: usize = 100;
 
 /// The summary of a study: its question, its main figures, the verdicts.
 pub fn study(run: &Run) -> String {
     match &run.content {
         Content::Hits(hits) => hits_study(run, hits),
+        Content::Strategies(strategies) => strategies::study(run, strategies),
     }
 }
 
@@ -118,7 +119,7 @@ fn gains(percent: f64) -> bool {
 const LEAST_GAIN: f64 = 0.005;
 
 /// A verdict and its figures each, folded beside their name.
-fn verdicts(run: &Run) -> String {
+pub(in crate::report) fn verdicts(run: &Run) -> String {
     const MARGIN: usize = 22;
     let mut text = String::from("\n");
     for v in &run.summary.verdicts {
@@ -210,8 +211,10 @@ mod tests {
     }
 
     fn hits(run: &mut Run) -> &mut Hits {
-        let Content::Hits(hits) = &mut run.content;
-        hits
+        match &mut run.content {
+            Content::Hits(hits) => hits,
+            Content::Strategies(_) => unreachable!("it is a run of kind hits-vs-area"),
+        }
     }
 
     #[test]

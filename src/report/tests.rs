@@ -20,7 +20,7 @@ fn figure3_of(count: u64, least: f64) -> Figure {
 }
 
 /// Every point of every shape lies on the page.
-fn assert_on_page(figure: &Figure) {
+pub(in crate::report) fn assert_on_page(figure: &Figure) {
     let (width, height) = (figure.size.0 as f32, figure.size.1 as f32);
     let check = |[x, y]: [f32; 2], reach: f32| {
         let inside = x >= reach && y >= reach && x <= width - reach && y <= height - reach;
@@ -208,7 +208,9 @@ fn the_figure_needs_its_nodes_only_where_nodes_were_kept() {
     let out = dir.path().join("out");
     assert_eq!(write_plots(&run, &out).unwrap().len(), 4);
     let mut leaves = run.clone();
-    let Content::Hits(hits) = &mut leaves.content;
+    let Content::Hits(hits) = &mut leaves.content else {
+        unreachable!("it is a run of kind hits-vs-area")
+    };
     hits.cells.iter_mut().for_each(|cell| cell.slope = None);
     let written = write_plots(&leaves, &dir.path().join("leaves")).unwrap();
     assert_eq!(written.len(), 2, "no slopes, no figure of slopes");

@@ -29,6 +29,13 @@ pub fn fit(text: &str, size: f64, width: f64) -> String {
         .unwrap_or_default()
 }
 
+/// The text with its first letter, if it is an ASCII one, made a capital.
+pub fn capitalised(text: &str) -> String {
+    let mut characters = text.chars();
+    let first = characters.next().map(|first| first.to_ascii_uppercase());
+    first.into_iter().chain(characters).collect()
+}
+
 /// Distance of two lines of a caption.
 pub const LEADING: f64 = 9.6;
 

@@ -7,7 +7,7 @@ use crate::report::table::{Cell, Column, Table};
 use crate::study::records::CellRecord;
 
 /// The strategy others are measured against.
-const REFERENCE: &str = "sah";
+pub const REFERENCE: &str = "sah";
 
 /// Per cent of cost below which trees count as equal: a change that would be shown as 0.0.
 const EQUAL: f64 = 0.05;

@@ -2,7 +2,7 @@
 
 use crate::report::fixture::{cells, summary};
 use crate::report::table::{Cell, Column, Table};
-use crate::report::tables;
+use crate::report::{strategies, tables};
 use crate::study::records::{SamplerRecord, Verdict};
 
 fn sample() -> Table {
@@ -149,7 +149,12 @@ fn all(known: bool) -> Vec<Table> {
         held: true,
         message: "|z| ≤ 10⁻⁶ × 2²⁰ ± 1 % … − 1 – 2, π ≥ 3".to_owned(),
     }];
-    vec![
+    let mut of_strategies = strategies::fixture::strategies();
+    if !known {
+        of_strategies.timings = None;
+    }
+    let of_strategies = of_strategies.tables(&summary).into_iter();
+    let mut all = vec![
         tables::cells(&cells),
         tables::costs(&cells),
         tables::fits(&cells),
@@ -158,8 +163,10 @@ fn all(known: bool) -> Vec<Table> {
         tables::of_scene(&cells),
         tables::extremes(&cells),
         tables::samplers(&[law]),
-        tables::verdicts(&summary),
-    ]
+    ];
+    all.extend(of_strategies.map(|(_, table)| table));
+    all.push(tables::verdicts(&summary));
+    all
 }
 
 #[test]

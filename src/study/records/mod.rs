@@ -125,6 +125,13 @@ pub struct CellRecord {
     pub contrasts: u64,
 }
 
+/// The name of a scene or stop rule as part of a file name: its words with dashes between them.
+pub fn file_stem(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}
+
 /// One node. A row of `nodes.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]

@@ -3,6 +3,7 @@
 use crate::cost::CostModel;
 use crate::kd::{Rules, Strategy, Work};
 use crate::scene::Scene;
+use crate::study::records::file_stem;
 use crate::study::store::{Store, StoreError};
 use crate::tracer::Picture;
 
@@ -39,9 +40,6 @@ pub fn write_cost(
     store.write(&file(scene, "pfm"), &bytes)
 }
 
-/// A scene's name as a file name: its words with dashes between them.
 fn file(scene: &Scene, extension: &str) -> String {
-    let words = scene.name.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
-    format!("pictures/{}.{extension}", words.join("-"))
+    format!("pictures/{}.{extension}", file_stem(&scene.name))
 }
