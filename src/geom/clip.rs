@@ -7,7 +7,7 @@
 
 use glam::DVec3;
 
-use super::{Aabb, Axis, Objects};
+use super::{Aabb, Axis, Object, Objects};
 
 /// The slack for objects in `world`, 2^-42 of its largest coordinate. The part beyond the clipping's own error is for
 /// rays: it covers origins up to some hundred times that far away.
@@ -89,15 +89,13 @@ impl Objects {
         slack: f64,
         clipper: &mut Clipper,
     ) -> Option<Aabb> {
-        let i = number as usize;
-        if let Some(triangle) = self.triangles.get(i) {
-            return clipper.clip(&triangle.0, region, slack);
-        }
-        let curved = self.triangles.len() + self.spheres.len() + self.cones.len();
-        let polygon = i.checked_sub(curved).map(|i| &self.polygons[i]);
-        match polygon.and_then(|p| Some((p, p.unevenness()?))) {
-            Some((p, unevenness)) => clipper.clip(p.corners(), region, slack + unevenness),
-            None => Some(*region),
+        match self.get(number) {
+            Object::Triangle(triangle) => clipper.clip(&triangle.0, region, slack),
+            Object::Polygon(polygon) => match polygon.unevenness() {
+                Some(unevenness) => clipper.clip(polygon.corners(), region, slack + unevenness),
+                None => Some(*region),
+            },
+            Object::Sphere(_) | Object::Cone(_) => Some(*region),
         }
     }
 }

@@ -141,6 +141,14 @@ impl Ray {
         )
     }
 
+    /// The second coordinate of [`sheared`](Self::sheared) alone, bit for bit.
+    #[inline]
+    pub(super) fn sheared_height(&self, p: DVec3) -> f64 {
+        let [_, ky, kz] = self.axes;
+        let o = self.line.origin;
+        (p[ky] - o[ky]) - self.shear.y * (p[kz] - o[kz])
+    }
+
     /// The ray's span of an object's own box, widened as in tracing; `None` if it misses the box, or if none of that span
     /// is in the ray's range. A hit kept inside is found through any tree.
     #[inline]

@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-use glam::{DVec2, DVec3};
+use glam::DVec3;
 
 use super::{Aabb, Ray};
 
@@ -125,26 +125,24 @@ impl Polygon {
     }
 
     fn is_crossed(&self, ray: &Ray) -> bool {
-        let mut previous = ray.sheared(self.corners[self.corners.len() - 1]).truncate();
-        let edges = self.corners.iter().map(|&corner| {
-            let current = ray.sheared(corner).truncate();
-            [std::mem::replace(&mut previous, current), current]
-        });
         if self.convex {
-            one_sided(edges)
+            one_sided(&self.corners, ray)
         } else {
-            even_odd(edges)
+            even_odd(&self.corners, ray)
         }
     }
 }
 
-/// Whether the origin lies on no edge's wrong side: inside a convex polygon, or on its edges. `false` if all edges lie on
+/// Whether the ray, the origin of its own frame, lies on no edge's wrong side: inside a convex polygon, or on its edges. `false` if all edges lie on
 /// one line with it.
 #[inline]
-fn one_sided(edges: impl Iterator<Item = [DVec2; 2]>) -> bool {
+fn one_sided(corners: &[DVec3], ray: &Ray) -> bool {
     let (mut negative, mut positive) = (false, false);
-    for [a, b] in edges {
+    let mut a = ray.sheared(corners[corners.len() - 1]).truncate();
+    for &corner in corners {
+        let b = ray.sheared(corner).truncate();
         let side = a.perp_dot(b);
+        a = b;
         negative |= side < 0.0;
         positive |= side > 0.0;
         if negative && positive {
@@ -154,17 +152,23 @@ fn one_sided(edges: impl Iterator<Item = [DVec2; 2]>) -> bool {
     negative || positive
 }
 
-/// Whether the half-axis y = 0 < x crosses an odd number of edges, or the origin lies on one.
+/// Whether the half-axis y = 0 < x of the ray's own frame crosses an odd number of edges, or the ray lies on one. Most edges
+/// lie above or below it: x is worked out for the few others.
 ///
 /// The sign of a difference of rounded products is never wrong, only sometimes zero; so this is exact for the corners
 /// given, and a corner on the half-axis counts as below it for both its edges.
 #[inline]
-fn even_odd(edges: impl Iterator<Item = [DVec2; 2]>) -> bool {
+fn even_odd(corners: &[DVec3], ray: &Ray) -> bool {
     let mut inside = false;
-    for [a, b] in edges {
-        if (a.y > 0.0 && b.y > 0.0) || (a.y < 0.0 && b.y < 0.0) {
+    let mut before = corners[corners.len() - 1];
+    let mut height = ray.sheared_height(before);
+    for &corner in corners {
+        let (from, low) = (before, height);
+        (before, height) = (corner, ray.sheared_height(corner));
+        if (low > 0.0 && height > 0.0) || (low < 0.0 && height < 0.0) {
             continue;
         }
+        let [a, b] = [from, corner].map(|p| ray.sheared(p).truncate());
         let side = a.perp_dot(b);
         if side == 0.0 && a.dot(b) <= 0.0 {
             return true;
@@ -193,6 +197,8 @@ fn is_convex(corners: &[DVec3], unit: DVec3) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec2;
+
     use super::*;
     use crate::geom::{Line, Span, Triangle};
 
