@@ -9,7 +9,7 @@ use super::table::{Cell, Column, Table};
 use crate::study::records::CellRecord;
 
 pub use checks::{fits, samplers, verdicts};
-pub use costs::{REFERENCE, costs, extremes, strategies};
+pub use costs::{EQUAL, REFERENCE, costs, extremes, strategies};
 
 /// A p-value, where there is one.
 fn p_value(p: Option<f64>) -> Cell {

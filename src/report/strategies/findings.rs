@@ -295,7 +295,7 @@ fn greedy_loses(part: &Part) -> String {
     for (i, measure) in Measure::COSTS.into_iter().enumerate() {
         let mut least: Vec<(&str, &str, f64)> = Vec::new();
         for tree in &better {
-            let Some(percent) = tree.percent[i].filter(|&percent| percent < 0.0) else {
+            let Some(percent) = tree.percent[i].filter(|&percent| percent < -greedy::EQUAL) else {
                 continue;
             };
             match least.iter_mut().find(|(scene, ..)| *scene == tree.scene) {

@@ -3,9 +3,7 @@
 use super::part::{Measure, Part, REFERENCE, percent};
 use super::tables::change;
 use crate::report::table::{Cell, Column, Table};
-
-/// Per cent of cost below which trees count as equal.
-const EQUAL: f64 = 0.05;
+pub use crate::report::tables::EQUAL;
 
 /// A tree that is predicted, counted or traced at less cost than the reference's.
 pub struct Better<'r> {

@@ -17,7 +17,7 @@ use crate::study::records::file_stem;
 /// The question, Havran's table beside ours for the first stop rule, his findings, the verdicts.
 pub fn study(run: &Run, strategies: &Strategies) -> String {
     let parts = strategies.parts();
-    let mut text = format!("\n{}\n", run.summary.question);
+    let mut text = format!("\n{}\n", fold(&run.summary.question, WIDTH));
     let stops: Vec<&str> = parts.iter().map(|part| part.stop).collect();
     let _ = writeln!(
         text,
@@ -35,9 +35,14 @@ pub fn study(run: &Run, strategies: &Strategies) -> String {
         text += "\n";
         text += &findings(part);
         let stem = file_stem(part.stop);
+        let others = if parts.len() > 1 {
+            ", likewise for every stop rule"
+        } else {
+            ""
+        };
         let paths = format!(
             "In the data folder: all averages in tables/times-havran-{stem}.md, all findings with their numbers in \
-             tables/times-findings-{stem}.md and tables/findings-cost-{stem}.md."
+             tables/times-findings-{stem}.md and tables/findings-cost-{stem}.md{others}."
         );
         text += &(fold(&paths, WIDTH) + "\n");
     }

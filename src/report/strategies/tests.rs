@@ -236,7 +236,9 @@ fn figures_stay_on_the_page() {
 
 #[test]
 fn a_run_fits_one_screen() {
-    let text = screen::study(&run(strategies()));
+    let mut long = run(strategies());
+    long.summary.question = "Is a question longer than a line folded? ".repeat(4);
+    let text = screen::study(&long);
     assert!(
         text.lines().all(|line| line.chars().count() <= 100),
         "{text}"

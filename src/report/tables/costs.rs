@@ -10,7 +10,7 @@ use crate::study::records::CellRecord;
 pub const REFERENCE: &str = "sah";
 
 /// Per cent of cost below which trees count as equal: a change that would be shown as 0.0.
-const EQUAL: f64 = 0.05;
+pub const EQUAL: f64 = 0.05;
 
 /// Every scene: the cost of every strategy, predicted and counted with half of its 99 % interval.
 pub fn costs(cells: &[CellRecord]) -> Table {
