@@ -13,7 +13,7 @@ use crate::report::palette::INK;
 use crate::report::render::{self, Render};
 use crate::report::series::distinct;
 use crate::report::text::{LEADING, SMALL, caption_lines, fit, title_and_caption};
-use crate::report::{Bitmap, ReportError};
+use crate::report::{Bitmap, DOTS_PER_INCH, ReportError};
 use crate::study::records::{CellRecord, RayRecord, Summary, file_stem};
 
 const TITLE: &str = "The scenes, as their rays see them";
@@ -25,8 +25,8 @@ const GAP: f64 = 4.0;
 const NAME: f64 = 12.0;
 /// Pictures beside each other: of a few scenes, and of many.
 const COLUMNS: [usize; 2] = [5, 10];
-/// Pixels of a picture in the gallery for each point: fine enough for print.
-const PIXELS: f64 = 4.0;
+/// Pixels of a picture in the gallery for each point: as many as the figure's PNG has.
+const PIXELS: f64 = DOTS_PER_INCH / 72.0;
 
 /// What the names of most scenes begin with; there is no room for it.
 const DATABASES: &str = "spd:";
