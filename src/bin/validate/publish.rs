@@ -87,13 +87,18 @@ fn check(name: &str, data: &Path) -> Result<()> {
     Ok(())
 }
 
-/// Copy a folder, without what is only there to resume (`cells/`) or too large to keep (`nodes.csv`).
+/// What is not published: what is only there to resume, and what is too large to keep and quickly made again.
+fn stays_behind(name: &str) -> bool {
+    ["cells", "nodes.csv", "pictures"].contains(&name) || name.starts_with("render-")
+}
+
+/// Copy a folder, without what [`stays_behind`].
 fn copy(from: &Path, to: &Path) -> Result<()> {
     let wrong = |path: &Path| format!("{}: cannot copy", path.display());
     for entry in fs::read_dir(from).with_context(|| wrong(from))? {
         let path = entry.with_context(|| wrong(from))?.path();
         let name = path.file_name().unwrap_or_default();
-        if name == "cells" || name == "nodes.csv" {
+        if stays_behind(&name.to_string_lossy()) {
             continue;
         }
         if path.is_dir() {
