@@ -22,7 +22,7 @@ const ALLOWED: [(&str, &[&str]); 12] = [
         ],
     ),
     // Only the records of a study: checked below.
-    ("report", &["files", "study"]),
+    ("report", &["cost", "files", "study"]),
     ("archive", &["files", "study"]),
     (
         "lib",

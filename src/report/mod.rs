@@ -1,7 +1,8 @@
 //! Figures and tables of a finished run, from its files alone.
 //!
 //! [`read_run`] reads a data directory; [`write_plots`] and [`write_tables`] are functions of what it read. Nothing here
-//! knows of trees, scenes or lines: the only import from the rest is the row types of [`crate::study::records`].
+//! knows of trees, scenes or lines: the only imports from the rest are the row types of [`crate::study::records`] and the
+//! cost formula.
 
 mod axis;
 mod bitmap;
@@ -28,6 +29,7 @@ mod strategies;
 mod svg;
 mod table;
 mod tables;
+mod termination;
 #[cfg(test)]
 mod tests;
 mod text;
@@ -43,6 +45,7 @@ pub use hits::Hits;
 pub use read::{Content, Run, read_run};
 pub use strategies::Strategies;
 pub use table::{Align, Cell, Column, Table};
+pub use termination::Termination;
 
 /// Resolution of the PNG files, in dots per inch.
 const DOTS_PER_INCH: f64 = 216.0;
@@ -119,6 +122,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let figures = match &run.content {
         Content::Hits(hits) => named(hits.figures(&run.summary)?),
         Content::Strategies(strategies) => strategies.figures(&run.summary)?,
+        Content::Termination(trees) => trees.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -156,6 +160,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
     let (tables, texts) = match &run.content {
         Content::Hits(hits) => (named(hits.tables(&run.summary)), Vec::new()),
         Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
+        Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

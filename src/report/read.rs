@@ -9,6 +9,7 @@ use serde::de::DeserializeOwned;
 use super::ReportError;
 use super::hits::Hits;
 use super::strategies::Strategies;
+use super::termination::Termination;
 use crate::study::records::Summary;
 
 /// What a finished run left behind.
@@ -29,6 +30,8 @@ pub enum Content {
     Hits(Hits),
     /// Kind `strategies`.
     Strategies(Strategies),
+    /// Kind `termination`.
+    Termination(Termination),
 }
 
 impl Run {
@@ -36,7 +39,7 @@ impl Run {
     pub fn hits(&self) -> Option<&Hits> {
         match &self.content {
             Content::Hits(hits) => Some(hits),
-            Content::Strategies(_) => None,
+            Content::Strategies(_) | Content::Termination(_) => None,
         }
     }
 }
@@ -53,6 +56,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
     let content = match summary.kind.as_str() {
         "hits-vs-area" => Content::Hits(Hits::read(dir)?),
         "strategies" => Content::Strategies(Strategies::read(dir)?),
+        "termination" => Content::Termination(Termination::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

@@ -15,6 +15,10 @@ pub fn study(run: &Run) -> String {
     match &run.content {
         Content::Hits(hits) => hits_study(run, hits),
         Content::Strategies(strategies) => strategies::study(run, strategies),
+        Content::Termination(trees) => {
+            let head = format!("\n{}\n\n", run.summary.question);
+            head + &trees.short_table().to_text(WIDTH) + &verdicts(run)
+        }
     }
 }
 
@@ -213,7 +217,7 @@ mod tests {
     fn hits(run: &mut Run) -> &mut Hits {
         match &mut run.content {
             Content::Hits(hits) => hits,
-            Content::Strategies(_) => unreachable!("it is a run of kind hits-vs-area"),
+            _ => unreachable!("it is a run of kind hits-vs-area"),
         }
     }
 

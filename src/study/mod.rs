@@ -53,7 +53,9 @@ pub fn run(
 ) -> Result<(), RunError> {
     match &plan.kind {
         Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher)?,
-        Kind::Strategies(asked) => strategies::run(plan, asked, scenes, store, watcher)?,
+        Kind::Strategies(asked) | Kind::Termination(asked) => {
+            strategies::run(plan, asked, scenes, store, watcher)?;
+        }
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -82,6 +84,6 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
 pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
     match &plan.kind {
         Kind::HitsVsArea(asked) => hits::describe(plan, asked, scenes),
-        Kind::Strategies(asked) => strategies::describe(plan, asked, scenes),
+        Kind::Strategies(asked) | Kind::Termination(asked) => strategies::describe(plan, asked, scenes),
     }
 }

@@ -52,24 +52,27 @@ pub enum Kind {
     HitsVsArea(HitsVsArea),
     /// Trees of several strategies: counted, traced, timed.
     Strategies(Strategies),
+    /// The same over stop rules and their settings: when is a node best left a leaf?
+    Termination(Strategies),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 2] = ["hits-vs-area", "strategies"];
+    pub const NAMES: [&str; 3] = ["hits-vs-area", "strategies", "termination"];
 
     /// The name in files.
     pub fn name(&self) -> &'static str {
         match self {
             Self::HitsVsArea(_) => Self::NAMES[0],
             Self::Strategies(_) => Self::NAMES[1],
+            Self::Termination(_) => Self::NAMES[2],
         }
     }
 
     fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         match self {
             Self::HitsVsArea(asked) => asked.check(scenes),
-            Self::Strategies(asked) => asked.check(),
+            Self::Strategies(asked) | Self::Termination(asked) => asked.check(),
         }
     }
 }
@@ -298,6 +301,7 @@ impl Plan {
         let kind = match head.kind.get_ref().as_str() {
             "hits-vs-area" => Kind::HitsVsArea(asked(rest)?),
             "strategies" => Kind::Strategies(asked(rest)?),
+            "termination" => Kind::Termination(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -373,7 +377,7 @@ impl Plan {
         self.name += "-quick";
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.controls = None,
-            Kind::Strategies(_) => {}
+            Kind::Strategies(_) | Kind::Termination(_) => {}
         }
     }
 
@@ -382,7 +386,7 @@ impl Plan {
         let rule = LineRule::exactly(lines)?;
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.lines = rule,
-            Kind::Strategies(asked) => asked.lines = rule,
+            Kind::Strategies(asked) | Kind::Termination(asked) => asked.lines = rule,
         }
         Ok(())
     }
@@ -394,7 +398,7 @@ impl Plan {
             Kind::HitsVsArea(asked) if asked.figure.scene == old => {
                 asked.figure.scene = name.into();
             }
-            Kind::HitsVsArea(_) | Kind::Strategies(_) => {}
+            Kind::HitsVsArea(_) | Kind::Strategies(_) | Kind::Termination(_) => {}
         }
     }
 }

@@ -28,7 +28,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 4] = [
+const EXPERIMENTS: [(&str, &str); 5] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -41,6 +41,10 @@ const EXPERIMENTS: [(&str, &str); 4] = [
     (
         "strategies",
         include_str!("../../../experiments/strategies.toml"),
+    ),
+    (
+        "termination",
+        include_str!("../../../experiments/termination.toml"),
     ),
 ];
 
