@@ -25,6 +25,7 @@ pub mod render;
 pub mod screen;
 mod series;
 mod slopes;
+mod split_cost;
 mod strategies;
 mod svg;
 mod table;
@@ -43,6 +44,7 @@ pub use bitmap::Bitmap;
 pub use figure::Figure;
 pub use hits::Hits;
 pub use read::{Content, Run, read_run};
+pub use split_cost::SplitCost;
 pub use strategies::Strategies;
 pub use table::{Align, Cell, Column, Table};
 pub use termination::Termination;
@@ -123,6 +125,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
         Content::Hits(hits) => named(hits.figures(&run.summary)?),
         Content::Strategies(strategies) => strategies.figures(&run.summary)?,
         Content::Termination(trees) => trees.figures(&run.summary),
+        Content::SplitCost(nodes) => nodes.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -161,6 +164,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::Hits(hits) => (named(hits.tables(&run.summary)), Vec::new()),
         Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
         Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
+        Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

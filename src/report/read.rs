@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::ReportError;
 use super::hits::Hits;
+use super::split_cost::SplitCost;
 use super::strategies::Strategies;
 use super::termination::Termination;
 use crate::study::records::Summary;
@@ -32,6 +33,8 @@ pub enum Content {
     Strategies(Strategies),
     /// Kind `termination`.
     Termination(Termination),
+    /// Kind `split-cost`.
+    SplitCost(SplitCost),
 }
 
 impl Run {
@@ -39,7 +42,7 @@ impl Run {
     pub fn hits(&self) -> Option<&Hits> {
         match &self.content {
             Content::Hits(hits) => Some(hits),
-            Content::Strategies(_) | Content::Termination(_) => None,
+            Content::Strategies(_) | Content::Termination(_) | Content::SplitCost(_) => None,
         }
     }
 }
@@ -57,6 +60,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         "hits-vs-area" => Content::Hits(Hits::read(dir)?),
         "strategies" => Content::Strategies(Strategies::read(dir)?),
         "termination" => Content::Termination(Termination::read(dir)?),
+        "split-cost" => Content::SplitCost(SplitCost::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

@@ -15,11 +15,14 @@ pub fn study(run: &Run) -> String {
     match &run.content {
         Content::Hits(hits) => hits_study(run, hits),
         Content::Strategies(strategies) => strategies::study(run, strategies),
-        Content::Termination(trees) => {
-            let head = format!("\n{}\n\n", run.summary.question);
-            head + &trees.short_table().to_text(WIDTH) + &verdicts(run)
-        }
+        Content::Termination(trees) => answer(run, &trees.short_table().to_text(WIDTH)),
+        Content::SplitCost(nodes) => answer(run, &nodes.screen(WIDTH)),
     }
+}
+
+/// The question, tables, and the verdicts.
+fn answer(run: &Run, tables: &str) -> String {
+    format!("\n{}\n\n{tables}{}", run.summary.question, verdicts(run))
 }
 
 fn hits_study(run: &Run, hits: &Hits) -> String {

@@ -6,6 +6,7 @@ pub mod lines;
 pub mod plan;
 pub mod record;
 pub mod records;
+pub mod split_cost;
 pub mod store;
 pub mod strategies;
 pub mod watcher;
@@ -56,6 +57,7 @@ pub fn run(
         Kind::Strategies(asked) | Kind::Termination(asked) => {
             strategies::run(plan, asked, scenes, store, watcher)?;
         }
+        Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher)?,
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -84,6 +86,9 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
 pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
     match &plan.kind {
         Kind::HitsVsArea(asked) => hits::describe(plan, asked, scenes),
-        Kind::Strategies(asked) | Kind::Termination(asked) => strategies::describe(plan, asked, scenes),
+        Kind::Strategies(asked) | Kind::Termination(asked) => {
+            strategies::describe(plan, asked, scenes)
+        }
+        Kind::SplitCost(asked) => split_cost::describe(plan, asked, scenes),
     }
 }

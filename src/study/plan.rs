@@ -19,6 +19,7 @@ use crate::kd::Strategy;
 use super::hits::HitsVsArea;
 use super::record::Record;
 use super::records::Summary;
+use super::split_cost::SplitCost;
 use super::strategies::Strategies;
 use super::{LEVEL, LineRule, SCHEMA};
 
@@ -54,11 +55,13 @@ pub enum Kind {
     Strategies(Strategies),
     /// The same over stop rules and their settings: when is a node best left a leaf?
     Termination(Strategies),
+    /// The split cost across nodes, and the medians.
+    SplitCost(SplitCost),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 3] = ["hits-vs-area", "strategies", "termination"];
+    pub const NAMES: [&str; 4] = ["hits-vs-area", "strategies", "termination", "split-cost"];
 
     /// The name in files.
     pub fn name(&self) -> &'static str {
@@ -66,6 +69,7 @@ impl Kind {
             Self::HitsVsArea(_) => Self::NAMES[0],
             Self::Strategies(_) => Self::NAMES[1],
             Self::Termination(_) => Self::NAMES[2],
+            Self::SplitCost(_) => Self::NAMES[3],
         }
     }
 
@@ -73,6 +77,7 @@ impl Kind {
         match self {
             Self::HitsVsArea(asked) => asked.check(scenes),
             Self::Strategies(asked) | Self::Termination(asked) => asked.check(),
+            Self::SplitCost(asked) => asked.check(scenes),
         }
     }
 }
@@ -302,6 +307,7 @@ impl Plan {
             "hits-vs-area" => Kind::HitsVsArea(asked(rest)?),
             "strategies" => Kind::Strategies(asked(rest)?),
             "termination" => Kind::Termination(asked(rest)?),
+            "split-cost" => Kind::SplitCost(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -377,7 +383,7 @@ impl Plan {
         self.name += "-quick";
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.controls = None,
-            Kind::Strategies(_) | Kind::Termination(_) => {}
+            Kind::Strategies(_) | Kind::Termination(_) | Kind::SplitCost(_) => {}
         }
     }
 
@@ -387,6 +393,11 @@ impl Plan {
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.lines = rule,
             Kind::Strategies(asked) | Kind::Termination(asked) => asked.lines = rule,
+            Kind::SplitCost(asked) => {
+                if let Some(octree) = &mut asked.octree {
+                    octree.lines = lines;
+                }
+            }
         }
         Ok(())
     }
@@ -397,6 +408,11 @@ impl Plan {
         match &mut self.kind {
             Kind::HitsVsArea(asked) if asked.figure.scene == old => {
                 asked.figure.scene = name.into();
+            }
+            Kind::SplitCost(asked) => {
+                for curve in asked.curves.iter_mut().filter(|c| c.scene == old) {
+                    curve.scene = name.into();
+                }
             }
             Kind::HitsVsArea(_) | Kind::Strategies(_) | Kind::Termination(_) => {}
         }

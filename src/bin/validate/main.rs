@@ -28,7 +28,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 5] = [
+const EXPERIMENTS: [(&str, &str); 6] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -45,6 +45,10 @@ const EXPERIMENTS: [(&str, &str); 5] = [
     (
         "termination",
         include_str!("../../../experiments/termination.toml"),
+    ),
+    (
+        "split-cost",
+        include_str!("../../../experiments/split-cost.toml"),
     ),
 ];
 

@@ -18,14 +18,13 @@ pub const COLUMNS: usize = 4;
 
 const WIDTH: f64 = 518.4;
 const LEFT: f64 = 8.0;
-/// Left edge of the first panel, and how far apart panels begin.
+/// Left edge of the first panel, and what lies between two of them.
 const FIRST: f64 = 38.0;
-const PITCH: f64 = 121.0;
-const ACROSS: f64 = 108.0;
+const GAP: f64 = 18.0;
 const DOWN: f64 = 118.0;
 const ROW: f64 = 146.0;
 /// Settings this many times as dear as the best are left out: they would flatten the rest.
-const MOST: f64 = 8.0;
+const MOST: f64 = 4.0;
 
 /// What one figure shows.
 pub struct Drawn<'d> {
@@ -53,7 +52,8 @@ impl Drawn<'_> {
             self.left_out([Measure::Lines, Measure::Rays]),
             self.provenance
         );
-        let title = "When should a node become a leaf? The metric's lines, and the rays of a picture";
+        let title =
+            "When should a node become a leaf? The metric's lines, and the rays of a picture";
         self.figure(
             title,
             caption,
@@ -131,13 +131,16 @@ impl Drawn<'_> {
         let top = 54.0 + LEGEND_LEADING * (lines - 1) as f64;
         let bottom = top + ROW + DOWN;
         let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
+        let columns = self.scenes.len() as f64;
+        let pitch = (WIDTH - LEFT - FIRST + GAP) / columns;
+        let across = pitch - GAP;
         Figure::draw(title, WIDTH, height, |pen| {
             title_and_caption(pen, title, LEFT, &caption, bottom + 36.0);
             legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
             for (column, scene) in self.scenes.iter().enumerate() {
-                let left = FIRST + PITCH * column as f64;
+                let left = FIRST + pitch * column as f64;
                 pen.text(
-                    &fit(scene, MEDIUM, ACROSS),
+                    &fit(scene, MEDIUM, across),
                     (left, top - 4.0),
                     MEDIUM,
                     INK,
@@ -148,15 +151,23 @@ impl Drawn<'_> {
                     let frame = Frame {
                         left,
                         top,
-                        right: left + ACROSS,
+                        right: left + across,
                         bottom: top + DOWN,
                     };
                     let x_label = if row == 1 { "nodes per object" } else { "" };
                     let y_label = if column == 0 { *label } else { "" };
-                    self.panel(pen, frame, (scene, *measure), [x_label, y_label], &rules);
+                    let y = Axis::log(y_label, 0.93, 1.05 * self.most(*measure), 4);
+                    self.panel(pen, frame, (scene, *measure), (x_label, y), &rules);
                 }
             }
         })
+    }
+
+    /// The dearest setting that is shown, so that the panels of a row have one scale.
+    fn most(&self, measure: Measure) -> f64 {
+        let all = self.scenes.iter().flat_map(|s| self.relative(s, measure));
+        let shown = all.map(|(_, ratio)| ratio).filter(|&ratio| ratio <= MOST);
+        shown.fold(1.2, f64::max)
     }
 
     fn panel(
@@ -164,7 +175,7 @@ impl Drawn<'_> {
         pen: &Pen,
         frame: Frame,
         (scene, measure): (&str, Measure),
-        [x_label, y_label]: [&str; 2],
+        (x_label, y): (&str, Axis),
         rules: &[&str],
     ) {
         let shown: Vec<_> = self
@@ -176,7 +187,6 @@ impl Drawn<'_> {
         let sizes = self.of_scene(scene).map(size);
         let (low, high) = extent(sizes.filter(|&size| size > 0.01)).unwrap_or((0.1, 10.0));
         let x = Axis::log(x_label, low / 1.3, high * 1.3, 4);
-        let y = Axis::log(y_label, 0.93, MOST * 1.05, 4);
         let mut panel = Panel::new(pen, frame, x, y);
         let point = |&(setting, ratio): &(&Setting, f64)| (size(setting), ratio);
         for (i, rule) in rules.iter().enumerate() {
@@ -203,7 +213,11 @@ impl Drawn<'_> {
         let best = shown.iter().min_by(|a, b| a.1.total_cmp(&b.1));
         if let Some((setting, ratio)) = best {
             let look = rules.iter().position(|rule| *rule == setting.rule);
-            ring(&panel, (size(setting), *ratio), Look::of(look.unwrap_or_default()));
+            ring(
+                &panel,
+                (size(setting), *ratio),
+                Look::of(look.unwrap_or_default()),
+            );
             pen.text(
                 &setting.cell.stop,
                 (frame.right - 1.5, frame.top + 3.0),

@@ -60,13 +60,14 @@ impl<'s, 'r> Group<'s, 'r> {
     /// Setting, value and per cent.
     fn cells(&self, measure: Measure, decimals: usize) -> [Cell; 3] {
         let missing = [Cell::Missing, Cell::Missing, Cell::Missing];
-        self.best(measure).map_or(missing, |(setting, value, above)| {
-            [
-                Cell::Text(setting.cell.stop.clone()),
-                Cell::Value(value, decimals),
-                Cell::Change(above, 1),
-            ]
-        })
+        self.best(measure)
+            .map_or(missing, |(setting, value, above)| {
+                [
+                    Cell::Text(setting.cell.stop.clone()),
+                    Cell::Value(value, decimals),
+                    Cell::Change(above, 1),
+                ]
+            })
     }
 
     /// What the setting that one measure picks costs by another, in per cent above the best of all rules.
@@ -237,7 +238,11 @@ mod tests {
         let groups = groups(&settings);
         assert_eq!(groups.len(), 2);
         let objects = &groups[0];
-        let best = |measure| objects.best(measure).map(|(s, v, a)| (s.cell.stop.as_str(), v, a));
+        let best = |measure| {
+            objects
+                .best(measure)
+                .map(|(s, v, a)| (s.cell.stop.as_str(), v, a))
+        };
         assert_eq!(best(Measure::Lines), Some(("objects:1", 10.0, 25.0)));
         assert_eq!(best(Measure::Rays), Some(("objects:4", 40.0, 0.0)));
         // Set for lines, twice the cost of rays; set for rays, three times the seconds.

@@ -4,10 +4,12 @@
 //! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] holds times, so every other
 //! file is byte-identical for any number of threads.
 
+mod split_cost;
 mod strategies;
 
 use serde::{Deserialize, Serialize};
 
+pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{PassTiming, RayRecord};
 
 /// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
