@@ -6,6 +6,7 @@ mod cone;
 mod line;
 mod objects;
 mod polygon;
+mod section;
 mod sphere;
 mod triangle;
 
@@ -15,6 +16,7 @@ pub use cone::Cone;
 pub use line::{Line, PADDING, Ray, Span};
 pub use objects::{Object, Objects};
 pub use polygon::Polygon;
+pub use section::Piece;
 pub use sphere::Sphere;
 pub use triangle::Triangle;
 

@@ -13,6 +13,7 @@ mod medians;
 pub mod octree;
 pub mod predict;
 pub mod probe;
+pub mod slice;
 pub mod stop;
 pub mod strategy;
 pub mod stream;

@@ -19,6 +19,7 @@ mod legend;
 mod number;
 mod palette;
 mod panel;
+mod partition;
 mod raster;
 mod read;
 pub mod render;

@@ -59,7 +59,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
     let content = match summary.kind.as_str() {
         "hits-vs-area" => Content::Hits(Hits::read(dir)?),
         "strategies" => Content::Strategies(Strategies::read(dir)?),
-        "termination" => Content::Termination(Termination::read(dir)?),
+        "termination" => Content::Termination(Termination(Strategies::read(dir)?)),
         "split-cost" => Content::SplitCost(SplitCost::read(dir)?),
         other => {
             return Err(ReportError::Empty {

@@ -6,75 +6,39 @@
 mod figure;
 mod table;
 
-use std::path::Path;
-
-use super::read::{optional_rows, rows_of};
 use super::series::{distinct, provenance};
+use super::strategies::part::{Measure, Tree};
 use super::table::Table;
-use super::{Figure, ReportError, tables};
-use crate::cost::CostModel;
-use crate::study::records::{CellRecord, PassTiming, RayRecord, Summary};
+use super::{Figure, Strategies, tables};
+use crate::study::records::Summary;
 
-/// The files of a run of kind `termination`.
+/// The files of a run of kind `termination`: those of kind `strategies`.
 #[derive(Clone, Debug)]
-pub struct Termination {
-    /// `cells.csv`.
-    pub cells: Vec<CellRecord>,
-    /// `rays.csv`.
-    pub rays: Vec<RayRecord>,
-    /// `timings.csv`, where there is one.
-    pub timings: Option<Vec<PassTiming>>,
-}
+pub struct Termination(pub Strategies);
 
 /// One tree: a stop rule at one setting.
-#[derive(Clone, Debug)]
 struct Setting<'r> {
-    cell: &'r CellRecord,
+    tree: Tree<'r>,
     /// The rule with a letter for what differs between its settings, e.g. `objects:N`.
     rule: String,
-    /// Cost of the picture's rays, for each of them.
-    traced: f64,
-    /// Seconds: of tracing them all, and with the building before it.
-    seconds: Option<[f64; 2]>,
 }
 
-/// What a setting may be the best by.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Measure {
-    /// C of isotropic lines, from areas.
-    Lines,
-    /// C of the rays of the picture, counted.
-    Rays,
-    /// Seconds to trace them.
-    Trace,
-    /// Seconds to build the tree and trace them.
-    Total,
+impl Setting<'_> {
+    /// What a setting may be the best by; only if it is a positive number.
+    fn value(&self, measure: Measure) -> Option<f64> {
+        self.tree.value(measure).filter(|&value| value > 0.0)
+    }
 }
 
-impl Measure {
-    fn of(self, setting: &Setting) -> Option<f64> {
-        let value = match self {
-            Self::Lines => setting.cell.c_predicted,
-            Self::Rays => setting.traced,
-            Self::Trace => setting.seconds?[0],
-            Self::Total => setting.seconds?[1],
-        };
-        (value > 0.0).then_some(value)
-    }
-
-    /// The setting of the least value.
-    fn best<'s, 'r>(
-        self,
-        settings: impl IntoIterator<Item = &'s Setting<'r>>,
-    ) -> Option<(&'s Setting<'r>, f64)>
-    where
-        'r: 's,
-    {
-        let known = settings
-            .into_iter()
-            .filter_map(|setting| Some((setting, self.of(setting)?)));
-        known.min_by(|a, b| a.1.total_cmp(&b.1))
-    }
+/// The setting of the least value.
+fn best<'s, 'r: 's>(
+    measure: Measure,
+    settings: impl IntoIterator<Item = &'s Setting<'r>>,
+) -> Option<(&'s Setting<'r>, f64)> {
+    let known = settings
+        .into_iter()
+        .filter_map(|setting| Some((setting, setting.value(measure)?)));
+    known.min_by(|a, b| a.1.total_cmp(&b.1))
 }
 
 /// A stop rule with a letter in place of what its settings differ in: the last number, or the depth bound it leaves open.
@@ -90,52 +54,21 @@ fn rule_of(stop: &str) -> String {
 }
 
 impl Termination {
-    /// Reads the files of a directory.
-    pub(super) fn read(dir: &Path) -> Result<Self, ReportError> {
-        Ok(Self {
-            cells: rows_of(&dir.join("cells.csv"))?,
-            rays: rows_of(&dir.join("rays.csv"))?,
-            timings: optional_rows(&dir.join("timings.csv"))?,
-        })
-    }
-
     fn settings(&self) -> Vec<Setting<'_>> {
-        self.cells.iter().map(|cell| self.setting(cell)).collect()
-    }
-
-    fn setting<'r>(&'r self, cell: &'r CellRecord) -> Setting<'r> {
-        let rays = || self.rays.iter().filter(|row| row.cell == cell.cell);
-        let sum = |part: fn(&RayRecord) -> u64| rays().map(part).sum::<u64>() as f64;
-        let cost = CostModel {
-            c_k: cell.c_k,
-            c_b: cell.c_b,
-            c_t: cell.c_t,
-        };
-        let all = cost.cost(
-            sum(|row| row.inner_visits),
-            sum(|row| row.leaf_visits),
-            sum(|row| row.object_tests),
-        );
-        let mut times = self.timings.iter().flatten();
-        let times = times.by_ref().filter(|row| row.cell == cell.cell);
-        let (build, trace): (Vec<_>, Vec<_>) = times.partition(|row| row.what == "build");
-        let total = |rows: &[&PassTiming]| rows.iter().map(|row| row.seconds).sum::<f64>();
-        let (build_s, trace_s) = (total(&build), total(&trace));
-        Setting {
-            cell,
+        let setting = |cell| Setting {
+            tree: Tree::new(&self.0, cell),
             rule: rule_of(&cell.stop),
-            traced: all / sum(|row| row.rays),
-            seconds: (!trace.is_empty()).then_some([trace_s, build_s + trace_s]),
-        }
+        };
+        self.0.cells.iter().map(setting).collect()
     }
 
     /// `termination` and `times-termination`, for each strategy and four scenes each.
     pub(super) fn figures(&self, summary: &Summary) -> Vec<(String, Figure)> {
         let settings = self.settings();
-        let scenes = distinct(self.cells.iter().map(|cell| cell.scene.as_str()));
+        let scenes = distinct(self.0.cells.iter().map(|cell| cell.scene.as_str()));
         let mut figures = Vec::new();
         let mut number = 0;
-        for strategy in distinct(self.cells.iter().map(|cell| cell.strategy.as_str())) {
+        for strategy in distinct(self.0.cells.iter().map(|cell| cell.strategy.as_str())) {
             for scenes in scenes.chunks(figure::COLUMNS) {
                 number += 1;
                 let behind = if number == 1 {
@@ -148,7 +81,8 @@ impl Termination {
                     scenes,
                     settings: &settings,
                     provenance: provenance(
-                        self.cells
+                        self.0
+                            .cells
                             .iter()
                             .filter(|c| c.strategy == strategy && scenes.contains(&&*c.scene)),
                     ),
@@ -159,6 +93,7 @@ impl Termination {
                 figures.extend(times.map(|times| (format!("times-termination{behind}"), times)));
             }
         }
+        figures.extend(self.0.partition(summary.quick));
         figures
     }
 
@@ -169,7 +104,7 @@ impl Termination {
             ("termination", table::costs(&settings)),
             ("verdicts", tables::verdicts(summary)),
         ];
-        if settings.iter().any(|setting| setting.seconds.is_some()) {
+        if best(Measure::Trace, &settings).is_some() {
             tables.push(("times-termination", table::times(&settings)));
         }
         tables
@@ -185,13 +120,16 @@ impl Termination {
 pub mod tests {
     use super::*;
     use crate::report::fixture;
+    use crate::study::records::{CellRecord, PassTiming, RayRecord};
 
     /// Trees of one scene by stop rule, references, cost of lines, tests of the rays, seconds of building and tracing.
     pub fn run(trees: &[(&str, f64, u64, Option<[f64; 2]>)]) -> Termination {
-        let mut run = Termination {
+        let mut run = Strategies {
             cells: Vec::new(),
             rays: Vec::new(),
             timings: Some(Vec::new()),
+            pictures: "no/such/pictures".into(),
+            slice: None,
         };
         for (i, &(stop, cost, tests, seconds)) in trees.iter().enumerate() {
             let cell = CellRecord {
@@ -201,7 +139,7 @@ pub mod tests {
                 c_counted: cost,
                 ..fixture::cell("spd:balls:3", "sah", 21 + 100 * i as u64)
             };
-            for kind in ["primary", "shadow"] {
+            for kind in ["primary", "shadow", "secondary"] {
                 run.rays.push(RayRecord {
                     cell: stop.into(),
                     scene: cell.scene.clone(),
@@ -216,7 +154,12 @@ pub mod tests {
                 });
             }
             if let Some([build, trace]) = seconds {
-                for (what, seconds) in [("build", build), ("primary", trace), ("shadow", trace)] {
+                for (what, seconds) in [
+                    ("build", build),
+                    ("primary", trace),
+                    ("shadow", trace),
+                    ("secondary", trace),
+                ] {
                     run.timings.iter_mut().for_each(|rows| {
                         rows.push(PassTiming {
                             cell: stop.into(),
@@ -239,7 +182,7 @@ pub mod tests {
             }
             run.cells.push(cell);
         }
-        run
+        Termination(run)
     }
 
     #[test]
@@ -265,13 +208,15 @@ pub mod tests {
             ("depth:4", 8.0, 300, None),
         ]);
         let settings = run.settings();
-        // c_t = 20: 200 tests of 100 rays.
-        assert_eq!(settings[0].traced, 40.0);
-        assert_eq!(settings[0].seconds, Some([4.0, 5.0]));
-        assert_eq!(settings[1].seconds, None);
-        let best = |measure: Measure| measure.best(&settings).map(|(s, _)| s.cell.stop.as_str());
-        assert_eq!(best(Measure::Lines), Some("depth:4"));
-        assert_eq!(best(Measure::Rays), Some("objects:1"));
+        // c_t = 2: 300 tests of 150 rays. Three kinds of 2 seconds each, and 1 of building.
+        let value = |measure| settings[0].value(measure);
+        assert_eq!(value(Measure::Traced), Some(4.0));
+        assert_eq!(value(Measure::Trace), Some(6.0));
+        assert_eq!(value(Measure::Total), Some(7.0));
+        assert_eq!(settings[1].value(Measure::Total), None);
+        let best = |measure| best(measure, &settings).map(|(s, _)| s.tree.cell.stop.as_str());
+        assert_eq!(best(Measure::Predicted), Some("depth:4"));
+        assert_eq!(best(Measure::Traced), Some("objects:1"));
         assert_eq!(best(Measure::Total), Some("objects:1"));
     }
 }

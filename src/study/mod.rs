@@ -26,6 +26,9 @@ pub const SCHEMA: u32 = 2;
 /// Level of an estimate's own interval.
 pub const LEVEL: f64 = 0.99;
 
+/// Names of the axes.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
+
 /// Why a run ended early.
 #[derive(Debug, Error)]
 pub enum RunError {
@@ -69,8 +72,8 @@ pub fn run(
 /// Whether the scenes have what the kind of experiment needs; the error names the first that has not.
 pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
     let traces = match plan.kind {
-        Kind::HitsVsArea(_) => false,
-        Kind::Strategies(_) => true,
+        Kind::HitsVsArea(_) | Kind::SplitCost(_) => false,
+        Kind::Strategies(_) | Kind::Termination(_) => true,
     };
     match scenes.iter().find(|scene| traces && scene.look.is_none()) {
         Some(scene) => Err(format!(

@@ -76,7 +76,7 @@ impl Kind {
     fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         match self {
             Self::HitsVsArea(asked) => asked.check(scenes),
-            Self::Strategies(asked) | Self::Termination(asked) => asked.check(),
+            Self::Strategies(asked) | Self::Termination(asked) => asked.check(scenes),
             Self::SplitCost(asked) => asked.check(scenes),
         }
     }
@@ -414,7 +414,13 @@ impl Plan {
                     curve.scene = name.into();
                 }
             }
-            Kind::HitsVsArea(_) | Kind::Strategies(_) | Kind::Termination(_) => {}
+            Kind::Strategies(asked) | Kind::Termination(asked) => {
+                let slice = asked.slice.iter_mut();
+                for slice in slice.filter(|slice| slice.scene == old) {
+                    slice.scene = name.into();
+                }
+            }
+            Kind::HitsVsArea(_) => {}
         }
     }
 }

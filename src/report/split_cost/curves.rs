@@ -4,11 +4,11 @@ use super::CurveNodeRecord as Node;
 use crate::report::axis::Axis;
 use crate::report::figure::{Figure, Pen};
 use crate::report::legend::{Key, LEGEND_LEADING, legend};
-use crate::report::number::{counted, fixed};
+use crate::report::number::counted;
 use crate::report::palette::{AXIS, BLUE, GREEN, INK, Look, Marker, SKY, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, caption_lines, title_and_caption};
+use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, title_and_caption};
 use crate::study::records::{CurveRecord, Summary};
 
 const TITLE: &str = "Where is the cheapest plane? The split cost across a node";
@@ -134,10 +134,9 @@ fn draw(pen: &Pen, frame: Frame, node: &Node, points: &[CurveRecord]) {
         format!("node of rank {}", node.rank)
     };
     let heading = format!(
-        "{}: {what}, {}, least {}",
+        "{}: {what}, {}",
         node.scene,
-        counted(node.objects, "object"),
-        fixed(least.1, 3)
+        counted(node.objects, "object")
     );
-    panel.heading(&heading, frame.left, 4.0);
+    panel.heading(&fit(&heading, MEDIUM, SIZE.0), frame.left, 4.0);
 }

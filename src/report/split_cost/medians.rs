@@ -23,12 +23,10 @@ pub fn figure(rows: &[MedianRecord], summary: &Summary) -> Figure {
     let caption = format!(
         "Inner nodes of the trees of strategy sah, stop {}, each once an axis. (a) Share of nodes whose least f lies between \
          the two medians, by objects in the node: straddlers counted on both sides (lines), each object once, by its centre \
-         (dashes). (b) f(b_om)/f(b_rm) − 1 where something straddles a median: median, middle half (thick), 5 to 95 % (thin) \
-         of the nodes. Where nothing straddles and the object median parts the objects evenly it is 0.",
+         (dashes). (b) f at the object median over f at the spatial one, where something straddles either: median, middle half \
+         (thick), 5 to 95 % (thin) of the nodes. Where nothing straddles and the object median parts the objects evenly it is 0.",
         summary.stop.as_deref().unwrap_or("unknown")
-    )
-    .replace("b_om", &format!("b{}om", crate::report::glyphs::SUB))
-    .replace("b_rm", &format!("b{}rm", crate::report::glyphs::SUB));
+    );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
     let keys: Vec<_> = scenes
         .iter()

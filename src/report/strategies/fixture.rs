@@ -32,6 +32,7 @@ pub fn strategies() -> Strategies {
         rays: Vec::new(),
         timings: Some(Vec::new()),
         pictures: "no/such/pictures".into(),
+        slice: None,
     };
     for (i, scene) in SCENES.iter().enumerate() {
         for stop in STOPS {

@@ -13,7 +13,7 @@ mod gallery;
 mod greedy;
 mod havran;
 mod netpbm;
-mod part;
+pub(super) mod part;
 mod screen;
 mod tables;
 #[cfg(test)]
@@ -24,8 +24,10 @@ use std::path::{Path, PathBuf};
 use super::read::{optional_rows, rows_of};
 use super::series::distinct;
 use super::table::Table;
-use super::{Figure, ReportError, cost};
-use crate::study::records::{CellRecord, PassTiming, RayRecord, Summary, file_stem};
+use super::{Figure, ReportError, cost, partition};
+use crate::study::records::{
+    CellRecord, OutlineRecord, PassTiming, RayRecord, SliceRecord, Summary, file_stem,
+};
 use part::{Measure, Part};
 
 pub(super) use screen::study;
@@ -41,6 +43,8 @@ pub struct Strategies {
     pub timings: Option<Vec<PassTiming>>,
     /// The folder `pictures`, whose files are read when they are drawn.
     pub pictures: PathBuf,
+    /// `slices.csv` and `outlines.csv`, where a slice was asked for.
+    pub slice: Option<(Vec<SliceRecord>, Vec<OutlineRecord>)>,
 }
 
 /// Something with the name of its file.
@@ -54,6 +58,10 @@ impl Strategies {
             rays: rows_of(&dir.join("rays.csv"))?,
             timings: optional_rows(&dir.join("timings.csv"))?,
             pictures: dir.join("pictures"),
+            slice: {
+                let cells = optional_rows(&dir.join("slices.csv"))?;
+                cells.zip(optional_rows(&dir.join("outlines.csv"))?)
+            },
         })
     }
 
@@ -83,7 +91,15 @@ impl Strategies {
             figures.push((name, cost::figure(&part.cells, quick)?));
         }
         figures.extend(gallery::figures(self, summary)?);
+        figures.extend(self.partition(quick));
         Ok(figures)
+    }
+
+    /// The slice through the trees, where one was asked for.
+    pub(super) fn partition(&self, quick: bool) -> Option<Named<Figure>> {
+        let (cells, outlines) = self.slice.as_ref()?;
+        let figure = partition::figure(cells, outlines, quick)?;
+        Some(("partition".to_owned(), figure))
     }
 
     pub(super) fn tables(&self, summary: &Summary) -> Vec<Named<Table>> {

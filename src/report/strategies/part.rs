@@ -1,6 +1,7 @@
 //! The trees of one stop rule, and what is measured of each.
 
 use super::Strategies;
+use crate::cost::CostModel;
 use crate::report::series::distinct;
 use crate::study::records::{CellRecord, PassTiming, RayRecord};
 
@@ -75,13 +76,24 @@ pub const KINDS: [&str; 3] = ["primary", "shadow", "secondary"];
 /// The row of the building of a tree.
 pub const BUILD: &str = "build";
 
-impl Tree<'_> {
+impl<'r> Tree<'r> {
+    /// The tree of a cell of this run.
+    pub fn new(run: &'r Strategies, cell: &'r CellRecord) -> Self {
+        let rays = run.rays.iter().filter(|row| row.cell == cell.cell);
+        let times = run.timings.iter().flatten();
+        Tree {
+            cell,
+            rays: rays.collect(),
+            times: times.filter(|row| row.cell == cell.cell).collect(),
+        }
+    }
+
     /// c_K n_K + c_B n_B + c_t n_t for the visits of these rays together.
     pub fn cost_of(&self, rays: &RayRecord) -> f64 {
-        let CellRecord { c_k, c_b, c_t, .. } = self.cell;
+        let CellRecord { c_k, c_b, c_t, .. } = *self.cell;
         let [inner, leaves, tests] =
             [rays.inner_visits, rays.leaf_visits, rays.object_tests].map(|n| n as f64);
-        c_k * inner + c_b * leaves + c_t * tests
+        CostModel { c_k, c_b, c_t }.cost(inner, leaves, tests)
     }
 
     /// The row of `timings.csv` of building or of a kind of rays.
@@ -130,22 +142,12 @@ impl<'r> Part<'r> {
     /// The trees of a run that stopped by this rule.
     pub fn new(run: &'r Strategies, stop: &'r str) -> Self {
         let cells = run.cells.iter().filter(|cell| cell.stop == stop);
-        let times = || run.timings.iter().flatten();
-        let tree = |cell: &'r CellRecord| Tree {
-            cell,
-            rays: run
-                .rays
-                .iter()
-                .filter(|row| row.cell == cell.cell)
-                .collect(),
-            times: times().filter(|row| row.cell == cell.cell).collect(),
-        };
         Part {
             stop,
             scenes: distinct(cells.clone().map(|cell| cell.scene.as_str())),
             strategies: distinct(run.cells.iter().map(|cell| cell.strategy.as_str())),
             cells: cells.clone().cloned().collect(),
-            trees: cells.map(tree).collect(),
+            trees: cells.map(|cell| Tree::new(run, cell)).collect(),
         }
     }
 

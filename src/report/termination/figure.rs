@@ -3,7 +3,7 @@
 use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
-use super::{Measure, Setting};
+use super::{Measure, Setting, best};
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::{Figure, Pen};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
@@ -49,7 +49,7 @@ impl Drawn<'_> {
              rays of the picture (eye, shadow and secondary; complete counts). Relative to the least of the scene, which is \
              ringed and named; {} {}",
             self.strategy,
-            self.left_out([Measure::Lines, Measure::Rays]),
+            self.left_out([Measure::Predicted, Measure::Traced]),
             self.provenance
         );
         let title =
@@ -58,15 +58,15 @@ impl Drawn<'_> {
             title,
             caption,
             [
-                (Measure::Lines, "C of lines / least"),
-                (Measure::Rays, "C of rays / least"),
+                (Measure::Predicted, "C of lines / least"),
+                (Measure::Traced, "C of rays / least"),
             ],
         )
     }
 
     /// Seconds, where there are any.
     pub fn times(&self) -> Option<Figure> {
-        Measure::Trace.best(self.settings)?;
+        best(Measure::Trace, self.settings)?;
         let caption = format!(
             "Every mark is a tree of strategy {}, every curve a stop rule over a range of its parameter. Above: seconds to \
              trace all rays of the picture, one thread. Below: to build the tree and trace them. Least times of short \
@@ -90,17 +90,24 @@ impl Drawn<'_> {
         let strategy = self.strategy;
         self.settings
             .iter()
-            .filter(move |s| s.cell.scene == scene && s.cell.strategy == strategy)
+            .filter(move |s| s.tree.cell.scene == scene && s.tree.cell.strategy == strategy)
     }
 
     /// Settings of a scene relative to the best of them.
     fn relative(&self, scene: &str, measure: Measure) -> Vec<(&Setting<'_>, f64)> {
-        let Some((_, least)) = measure.best(self.of_scene(scene)) else {
+        let Some((_, least)) = best(measure, self.of_scene(scene)) else {
             return Vec::new();
         };
         self.of_scene(scene)
-            .filter_map(|setting| Some((setting, measure.of(setting)? / least)))
+            .filter_map(|setting| Some((setting, setting.value(measure)? / least)))
             .collect()
+    }
+
+    /// Those of them that are not too dear to be shown.
+    fn shown(&self, scene: &str, measure: Measure) -> Vec<(&Setting<'_>, f64)> {
+        let mut shown = self.relative(scene, measure);
+        shown.retain(|&(_, ratio)| ratio <= MOST);
+        shown
     }
 
     /// How many marks are too dear to be shown.
@@ -146,6 +153,12 @@ impl Drawn<'_> {
                     INK,
                     (HPos::Left, VPos::Bottom),
                 );
+                // Both panels of a scene have the same horizontal axis.
+                let shown = rows
+                    .iter()
+                    .flat_map(|(measure, _)| self.shown(scene, *measure));
+                let sizes = extent(shown.map(|(setting, _)| size(setting)));
+                let (low, high) = sizes.unwrap_or((0.1, 10.0));
                 for (row, (measure, label)) in rows.iter().enumerate() {
                     let top = top + ROW * row as f64;
                     let frame = Frame {
@@ -156,8 +169,9 @@ impl Drawn<'_> {
                     };
                     let x_label = if row == 1 { "nodes per object" } else { "" };
                     let y_label = if column == 0 { *label } else { "" };
+                    let x = Axis::log(x_label, low / 1.3, high * 1.3, 4);
                     let y = Axis::log(y_label, 0.93, 1.05 * self.most(*measure), 4);
-                    self.panel(pen, frame, (scene, *measure), (x_label, y), &rules);
+                    self.panel(pen, frame, (scene, *measure), (x, y), &rules);
                 }
             }
         })
@@ -165,9 +179,8 @@ impl Drawn<'_> {
 
     /// The dearest setting that is shown, so that the panels of a row have one scale.
     fn most(&self, measure: Measure) -> f64 {
-        let all = self.scenes.iter().flat_map(|s| self.relative(s, measure));
-        let shown = all.map(|(_, ratio)| ratio).filter(|&ratio| ratio <= MOST);
-        shown.fold(1.2, f64::max)
+        let shown = self.scenes.iter().flat_map(|s| self.shown(s, measure));
+        shown.map(|(_, ratio)| ratio).fold(1.2, f64::max)
     }
 
     fn panel(
@@ -175,18 +188,10 @@ impl Drawn<'_> {
         pen: &Pen,
         frame: Frame,
         (scene, measure): (&str, Measure),
-        (x_label, y): (&str, Axis),
+        (x, y): (Axis, Axis),
         rules: &[&str],
     ) {
-        let shown: Vec<_> = self
-            .relative(scene, measure)
-            .into_iter()
-            .filter(|&(_, ratio)| ratio <= MOST)
-            .collect();
-        // Both panels of a scene have the same horizontal axis.
-        let sizes = self.of_scene(scene).map(size);
-        let (low, high) = extent(sizes.filter(|&size| size > 0.01)).unwrap_or((0.1, 10.0));
-        let x = Axis::log(x_label, low / 1.3, high * 1.3, 4);
+        let shown = self.shown(scene, measure);
         let mut panel = Panel::new(pen, frame, x, y);
         let point = |&(setting, ratio): &(&Setting, f64)| (size(setting), ratio);
         for (i, rule) in rules.iter().enumerate() {
@@ -198,12 +203,14 @@ impl Drawn<'_> {
             for &&(setting, ratio) in &curve {
                 // Lines were counted besides: their marks stand where the count is.
                 let counted = match measure {
-                    Measure::Lines => ratio * setting.cell.c_counted / setting.cell.c_predicted,
+                    Measure::Predicted => {
+                        ratio * setting.tree.cell.c_counted / setting.tree.cell.c_predicted
+                    }
                     _ => ratio,
                 };
                 let at = (size(setting), counted);
-                if let (Measure::Lines, Some(se)) = (measure, setting.cell.c_se) {
-                    let half = ratio * Z99 * se / setting.cell.c_predicted;
+                if let (Measure::Predicted, Some(se)) = (measure, setting.tree.cell.c_se) {
+                    let half = ratio * Z99 * se / setting.tree.cell.c_predicted;
                     let bar = [(at.0, counted - half), (at.0, counted + half)];
                     panel.line(&bar, faded(look.colour, 0.6), 0.7);
                 }
@@ -219,7 +226,7 @@ impl Drawn<'_> {
                 Look::of(look.unwrap_or_default()),
             );
             pen.text(
-                &setting.cell.stop,
+                &setting.tree.cell.stop,
                 (frame.right - 1.5, frame.top + 3.0),
                 SMALL,
                 INK,
@@ -239,6 +246,6 @@ fn ring(panel: &Panel, at: (f64, f64), look: Look) {
 
 /// Nodes per object.
 fn size(setting: &Setting) -> f64 {
-    let cell = setting.cell;
+    let cell = setting.tree.cell;
     (cell.inner_nodes + cell.leaves) as f64 / cell.objects as f64
 }

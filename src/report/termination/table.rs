@@ -1,6 +1,6 @@
 //! The best setting of every stop rule.
 
-use super::{Measure, Setting};
+use super::{Measure, Setting, best};
 use crate::report::cost::Pair;
 use crate::report::number::signed;
 use crate::report::series::distinct;
@@ -17,11 +17,11 @@ struct Group<'s, 'r> {
 
 fn groups<'s, 'r>(settings: &'s [Setting<'r>]) -> Vec<Group<'s, 'r>> {
     let mut groups = Vec::new();
-    for scene in distinct(settings.iter().map(|s| s.cell.scene.as_str())) {
-        for strategy in distinct(settings.iter().map(|s| s.cell.strategy.as_str())) {
+    for scene in distinct(settings.iter().map(|s| s.tree.cell.scene.as_str())) {
+        for strategy in distinct(settings.iter().map(|s| s.tree.cell.strategy.as_str())) {
             let all = settings
                 .iter()
-                .filter(|s| s.cell.scene == scene && s.cell.strategy == strategy);
+                .filter(|s| s.tree.cell.scene == scene && s.tree.cell.strategy == strategy);
             let all: Vec<&Setting> = all.collect();
             for rule in distinct(all.iter().map(|s| s.rule.as_str())) {
                 let own = all.iter().copied().filter(|s| s.rule == rule).collect();
@@ -47,13 +47,13 @@ impl<'s, 'r> Group<'s, 'r> {
 
     /// The rule's best setting, its value, and per cent above the best of all rules.
     fn best(&self, measure: Measure) -> Option<(&'s Setting<'r>, f64, f64)> {
-        let (setting, value) = measure.best(self.own.iter().copied())?;
+        let (setting, value) = best(measure, self.own.iter().copied())?;
         Some((setting, value, self.above(measure, value)?))
     }
 
     /// Per cent that a value is above the least of all rules.
     fn above(&self, measure: Measure, value: f64) -> Option<f64> {
-        let (_, least) = measure.best(self.all.iter().copied())?;
+        let (_, least) = best(measure, self.all.iter().copied())?;
         Some(100.0 * (value / least - 1.0))
     }
 
@@ -63,7 +63,7 @@ impl<'s, 'r> Group<'s, 'r> {
         self.best(measure)
             .map_or(missing, |(setting, value, above)| {
                 [
-                    Cell::Text(setting.cell.stop.clone()),
+                    Cell::Text(setting.tree.cell.stop.clone()),
                     Cell::Value(value, decimals),
                     Cell::Change(above, 1),
                 ]
@@ -72,9 +72,8 @@ impl<'s, 'r> Group<'s, 'r> {
 
     /// What the setting that one measure picks costs by another, in per cent above the best of all rules.
     fn picked_by(&self, picks: Measure, judges: Measure) -> Cell {
-        let above = picks
-            .best(self.own.iter().copied())
-            .and_then(|(setting, _)| self.above(judges, judges.of(setting)?));
+        let above = best(picks, self.own.iter().copied())
+            .and_then(|(setting, _)| self.above(judges, setting.value(judges)?));
         above.map_or(Cell::Missing, |above| Cell::Change(above, 1))
     }
 }
@@ -103,9 +102,9 @@ pub fn costs(settings: &[Setting]) -> Table {
     let row = |group: &Group| {
         let mut row = group.names();
         row.push(Cell::Count(group.own.len() as u64));
-        row.extend(group.cells(Measure::Lines, 2));
-        row.extend(group.cells(Measure::Rays, 2));
-        row.push(group.picked_by(Measure::Lines, Measure::Rays));
+        row.extend(group.cells(Measure::Predicted, 2));
+        row.extend(group.cells(Measure::Traced, 2));
+        row.push(group.picked_by(Measure::Predicted, Measure::Traced));
         row
     };
     Table {
@@ -136,8 +135,8 @@ pub fn times(settings: &[Setting]) -> Table {
         let mut row = group.names();
         row.extend(group.cells(Measure::Trace, 4));
         row.extend(group.cells(Measure::Total, 4));
-        row.push(group.picked_by(Measure::Lines, Measure::Trace));
-        row.push(group.picked_by(Measure::Rays, Measure::Trace));
+        row.push(group.picked_by(Measure::Predicted, Measure::Trace));
+        row.push(group.picked_by(Measure::Traced, Measure::Trace));
         row
     };
     Table {
@@ -165,7 +164,7 @@ pub fn settings(settings: &[Setting]) -> Table {
         Column::right("C of rays", "rays_c"),
     ];
     let row = |setting: &Setting| {
-        let cell = setting.cell;
+        let cell = setting.tree.cell;
         let cost = Pair::cost(cell);
         vec![
             Cell::Text(cell.scene.clone()),
@@ -176,7 +175,7 @@ pub fn settings(settings: &[Setting]) -> Table {
             Cell::Value(cell.references as f64 / cell.objects as f64, 3),
             Cell::Value(cost.predicted, cost.decimals()),
             Cell::Measured(cost.counted, cost.half()),
-            Cell::Value(setting.traced, 2),
+            Cell::Value(setting.tree.value(Measure::Traced).unwrap_or(f64::NAN), 2),
         ]
     };
     Table {
@@ -201,7 +200,7 @@ pub fn short(settings: &[Setting]) -> Table {
     let row = |group: &Group| {
         let best = |measure| match group.best(measure) {
             Some((setting, _, above)) => {
-                Cell::Text(format!("{} {} %", setting.cell.stop, signed(above, 1)))
+                Cell::Text(format!("{} {} %", setting.tree.cell.stop, signed(above, 1)))
             }
             None => Cell::Missing,
         };
@@ -209,7 +208,7 @@ pub fn short(settings: &[Setting]) -> Table {
             Cell::Text(group.scene.to_owned()),
             Cell::Text(group.rule.to_owned()),
         ];
-        row.extend([Measure::Lines, Measure::Rays, Measure::Trace].map(best));
+        row.extend([Measure::Predicted, Measure::Traced, Measure::Trace].map(best));
         row
     };
     Table {
@@ -241,16 +240,16 @@ mod tests {
         let best = |measure| {
             objects
                 .best(measure)
-                .map(|(s, v, a)| (s.cell.stop.as_str(), v, a))
+                .map(|(s, v, a)| (s.tree.cell.stop.as_str(), v, a))
         };
-        assert_eq!(best(Measure::Lines), Some(("objects:1", 10.0, 25.0)));
-        assert_eq!(best(Measure::Rays), Some(("objects:4", 40.0, 0.0)));
+        assert_eq!(best(Measure::Predicted), Some(("objects:1", 10.0, 25.0)));
+        assert_eq!(best(Measure::Traced), Some(("objects:4", 4.0, 0.0)));
         // Set for lines, twice the cost of rays; set for rays, three times the seconds.
-        let picked = objects.picked_by(Measure::Lines, Measure::Rays);
+        let picked = objects.picked_by(Measure::Predicted, Measure::Traced);
         assert_eq!(picked, Cell::Change(100.0, 1));
-        let picked = objects.picked_by(Measure::Rays, Measure::Trace);
+        let picked = objects.picked_by(Measure::Traced, Measure::Trace);
         assert_eq!(picked, Cell::Change(200.0, 1));
-        let unknown = groups[1].picked_by(Measure::Rays, Measure::Trace);
+        let unknown = groups[1].picked_by(Measure::Traced, Measure::Trace);
         assert_eq!(unknown, Cell::Missing);
     }
 }

@@ -10,7 +10,7 @@ mod strategies;
 use serde::{Deserialize, Serialize};
 
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
-pub use strategies::{PassTiming, RayRecord};
+pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 
 /// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
 ///

@@ -64,3 +64,49 @@ pub struct PassTiming {
     /// Load average of the machine when the scene was timed, where it is known.
     pub load_average: Option<f64>,
 }
+
+/// A leaf that a plane across an axis cuts. A row of `slices.csv`. u and v are the two other axes in ascending order.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SliceRecord {
+    /// Scene of the tree.
+    pub scene: String,
+    /// Strategy of the tree.
+    pub strategy: String,
+    /// Stop rule of the tree.
+    pub stop: String,
+    /// The axis that the plane stands across: `x`, `y` or `z`.
+    pub axis: String,
+    /// Where it stands.
+    pub at: f64,
+    /// Lower end of the leaf on u.
+    pub u_lo: f64,
+    /// Lower end on v.
+    pub v_lo: f64,
+    /// Upper end on u.
+    pub u_hi: f64,
+    /// Upper end on v.
+    pub v_hi: f64,
+    /// Depth of the leaf (root = 0).
+    pub depth: u64,
+    /// Objects in the leaf.
+    pub objects: u64,
+}
+
+/// A piece of an object's outline in that plane. A row of `outlines.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct OutlineRecord {
+    /// Scene.
+    pub scene: String,
+    /// Number of the object.
+    pub object: u64,
+    /// One end on u.
+    pub u0: f64,
+    /// One end on v.
+    pub v0: f64,
+    /// The other end on u.
+    pub u1: f64,
+    /// The other end on v.
+    pub v1: f64,
+}

@@ -4,12 +4,10 @@ use crate::geom::{Aabb, Axis};
 use crate::kd::curve::{CurvePoint, SplitCurve, for_each_node, split_curve};
 use crate::kd::{StopRule, Tree};
 use crate::scene::Scene;
+use crate::study::AXES;
 use crate::study::records::{CurveNodeRecord, CurveRecord, MedianRecord};
 
 use super::asked::SplitCost;
-
-/// Names of the axes.
-pub const AXES: [&str; 3] = ["x", "y", "z"];
 
 /// What is found at the nodes of a tree.
 pub struct AtNodes {
@@ -59,6 +57,11 @@ pub fn look(scene: &Scene, tree: &Tree, asked: &SplitCost, ranks: &[u32]) -> AtN
                         axis,
                     };
                     drawn.extend(place.node(&curve, (node, depth), objects.len()));
+                    // Where there are no bounds there are no points: positions a picture needs besides.
+                    let grid = (1..GRID).map(|i| f64::from(i) / f64::from(GRID));
+                    let (lo, side) = (cell.lo[axis], cell.extent()[axis]);
+                    let grid: Vec<f64> = grid.map(|b| lo + b * side).collect();
+                    let curve = split_curve(&bounds, cell, axis, asked.samples, &grid);
                     curves.extend(place.points(&curve));
                 }
             }
@@ -226,6 +229,9 @@ struct Place<'p> {
 /// Points of a curve that are kept, about.
 const POINTS: usize = 2000;
 
+/// Equal parts of a node at whose ends there are points in any case.
+const GRID: u32 = 256;
+
 impl Place<'_> {
     /// A position as b, 0 to 1 across the node.
     fn b(&self, position: f64) -> f64 {
@@ -307,11 +313,11 @@ mod tests {
 
     #[test]
     fn straddlers_may_put_the_minimum_outside_the_medians() {
-        // Both objects are cut between the medians 0.45 and 1/2; each alone at 0.4 and 0.6.
+        // Both objects are cut between the medians 0.45 and 1/2; least is the plane that cuts off what is empty, at 0.8.
         let crossed = seen(&[(0.0, 0.6), (0.4, 0.8)]);
         assert!(!crossed.between);
-        // SA parts of a cube: (1 + 2b)/3. At 1/2: 2 * 2 * 2/3; at 0.4: 1 * 1.8/3 + 2 * 2.2/3 = 6.2/3.
-        let expected = (8.0 / 3.0) / (6.2 / 3.0) - 1.0;
+        // SA parts of a cube: (1 + 2b)/3. At 1/2: 2 * 2 * 2/3; at 0.8: 2 * 2.6/3.
+        let expected = (8.0 / 3.0) / (5.2 / 3.0) - 1.0;
         let excess = crossed.between_excess;
         assert!((excess - expected).abs() < 1e-12, "{excess} {expected}");
         assert!(seen(&[(0.0, 0.1), (0.1, 0.2), (0.3, 0.4), (0.8, 0.9)]).between);

@@ -124,7 +124,9 @@ mod tests {
     #[test]
     fn errors_of_a_mean() {
         let mut sums = Squares::default();
-        [1, 2, 3, 6].map(|v| sums.add(v));
+        for visits in [1, 2, 3, 6] {
+            sums.add(visits);
+        }
         // Variance (4 + 1 + 0 + 9)/3 of a mean of 3.
         assert_eq!(sums.mean(4), 3.0);
         assert!((sums.error(4) - (14.0_f64 / 12.0).sqrt()).abs() < 1e-12);

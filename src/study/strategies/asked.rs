@@ -7,6 +7,8 @@ use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
 
+use super::slices::SliceOf;
+
 /// The keys of this kind.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -26,6 +28,8 @@ pub struct Strategies {
     pub checked: u32,
     /// How seconds are measured.
     pub timing: Timing,
+    /// A slice through one of the scenes, to be drawn.
+    pub slice: Option<SliceOf>,
     /// What is expected.
     pub expect: Expect,
 }
@@ -54,7 +58,7 @@ pub struct Expect {
 
 impl Strategies {
     /// Whether the values make sense together.
-    pub fn check(&self) -> Result<(), Wrong> {
+    pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         check_strategies(&self.strategies)?;
         wrong_unless(!self.stops.is_empty(), "stops", || {
             "stops must name at least one rule".into()
@@ -81,6 +85,9 @@ impl Strategies {
             format!("timing.pass_s = {pass_s}, but it must be a number above 0")
         })?;
         check_family(self.expect.family)?;
+        if let Some(slice) = &self.slice {
+            slice.check(scenes)?;
+        }
         self.lines.check()
     }
 }

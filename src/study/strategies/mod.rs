@@ -4,6 +4,7 @@
 pub mod asked;
 pub mod cells;
 pub mod pictures;
+pub mod slices;
 pub mod timing;
 pub mod verdicts;
 
@@ -65,6 +66,7 @@ pub(super) fn run(
             results.extend(cells::measure(plan, asked, cells, store, watcher)?);
         }
     }
+    slices::write(plan, asked, scenes, store, watcher)?;
     write(plan, asked, &results, store)?;
     Ok(())
 }

@@ -1,0 +1,204 @@
+//! The kinds `termination` and `split-cost`, and slices, as a user meets them: files, resumption, wrong input.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::Path;
+
+use assert_cmd::Command;
+use predicates::prelude::*;
+use predicates::str::contains;
+use sahlab::study::records::{MedianRecord, OctreeRecord, SliceRecord};
+use serde::de::DeserializeOwned;
+
+const TERMINATION: &str = r#"kind = "termination"
+question = "When is a node a leaf?"
+seed = 5
+scenes = ["spd:balls:2", "spd:tree:3"]
+strategies = ["sah", "spatial-median"]
+stops = ["objects:1", "objects:8", "cost-gain", "depth:4"]
+lines = { slope_error = 1.0, min = 2048, max = 2048 }
+pixels = 16
+checked = 50
+cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
+timing = { rounds = 2, builds = 2, pass_s = 0.002 }
+slice = { scene = "spd:balls:2", axis = "z", at = 0.3 }
+expect = { family = 0.001, primary_hits_within = 3 }
+"#;
+
+const SPLIT_COST: &str = r#"kind = "split-cost"
+question = "Where is the cheapest plane?"
+seed = 5
+scenes = ["spd:tree:5", "simple:soup:300", "simple:flat:300"]
+stop = "objects:2:12"
+samples = 10
+curves = [{ scene = "spd:tree:5", rank = 1 }, { scene = "simple:soup:300", rank = 2 }]
+octree = { limit = 3, levels = 3, lines = 500 }
+cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
+expect = { equal_within = 1e-12 }
+"#;
+
+fn folder(text: &str) -> tempfile::TempDir {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("e.toml"), text).unwrap();
+    folder
+}
+
+fn validate(folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("validate").unwrap();
+    command.current_dir(folder).args(["run", "e.toml"]);
+    command
+}
+
+/// Data, tables and figures, but for those that hold times.
+fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
+    let mut all = BTreeMap::new();
+    for entry in fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
+        if path.is_dir() {
+            let inside = contents(&path).into_iter();
+            all.extend(inside.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
+        } else if !sahlab::archive::holds_times(&name) {
+            all.insert(name, fs::read(path).unwrap());
+        }
+    }
+    all
+}
+
+fn rows<T: DeserializeOwned>(folder: &Path, name: &str) -> Vec<T> {
+    let mut reader = csv::Reader::from_path(folder.join("data/e").join(name)).unwrap();
+    reader.deserialize().collect::<Result<_, _>>().unwrap()
+}
+
+/// A run, the same again from what is finished, and the same with another number of threads.
+fn runs_alike(folder: &Path, finished: &str) -> BTreeMap<String, Vec<u8>> {
+    let run = |more: &[&str]| validate(folder).args(more).assert().code(0);
+    run(&["--threads", "1"]);
+    let before = contents(folder);
+    run(&[]).stderr(contains(finished));
+    assert!(before == contents(folder));
+    run(&["--threads", "2", "--force"]);
+    assert!(before == contents(folder));
+    before
+}
+
+#[test]
+fn termination_compares_settings() {
+    let folder = folder(TERMINATION);
+    let files = runs_alike(folder.path(), "16 of 16 trees were finished");
+    for file in [
+        "data/e/cells.csv",
+        "data/e/rays.csv",
+        "data/e/tables/settings.md",
+        "data/e/tables/termination.csv",
+        "plots/e/termination.svg",
+        "plots/e/termination-2.png",
+        "plots/e/partition.svg",
+    ] {
+        assert!(files.contains_key(file), "{file}");
+    }
+    for file in [
+        "data/e/tables/times-termination.md",
+        "plots/e/times-termination.png",
+    ] {
+        assert!(folder.path().join(file).is_file(), "{file}");
+    }
+    // Two scenes, two strategies, three rules.
+    let table = String::from_utf8(files["data/e/tables/termination.csv"].clone()).unwrap();
+    assert_eq!(table.lines().count(), 1 + 12);
+    // The cells of a slice tile it: every strategy covers the same area.
+    let cells: Vec<SliceRecord> = rows(folder.path(), "slices.csv");
+    let area = |strategy: &str| -> f64 {
+        let own = cells.iter().filter(|c| c.strategy == strategy);
+        own.map(|c| (c.u_hi - c.u_lo) * (c.v_hi - c.v_lo)).sum()
+    };
+    let (a, b) = (area("sah"), area("spatial-median"));
+    assert!(a > 0.0 && (a / b - 1.0).abs() < 1e-12, "{a} {b}");
+}
+
+#[test]
+fn split_cost_finds_minima_and_medians() {
+    let folder = folder(SPLIT_COST);
+    let files = runs_alike(folder.path(), "3 of 3 scenes were finished");
+    for file in [
+        "data/e/curves.csv",
+        "data/e/curve-nodes.csv",
+        "data/e/tables/medians.md",
+        "data/e/tables/octree.tex",
+        "plots/e/split-cost.svg",
+        "plots/e/medians.png",
+    ] {
+        assert!(files.contains_key(file), "{file}");
+    }
+    let medians: Vec<MedianRecord> = rows(folder.path(), "medians.csv");
+    let nodes = |axis: &str, sized: fn(&MedianRecord) -> bool| -> u64 {
+        let own = medians.iter().filter(|r| r.axis == axis && sized(r));
+        own.map(|r| r.nodes).sum()
+    };
+    let whole = |r: &MedianRecord| r.objects_lo == 2 && r.objects_hi.is_none();
+    let by_axis: u64 = ["x", "y", "z"].map(|axis| nodes(axis, whole)).iter().sum();
+    assert_eq!(nodes("all", whole), by_axis);
+    assert_eq!(
+        nodes("all", |r| r.objects_lo > 2 || r.objects_hi.is_some()),
+        by_axis
+    );
+    assert!(medians.iter().all(|r| r.between_centres == r.nodes));
+    let octrees: Vec<OctreeRecord> = rows(folder.path(), "octree.csv");
+    assert!(
+        octrees
+            .iter()
+            .all(|r| r.kd_inner_nodes == 7 * r.octree_inner_nodes)
+    );
+}
+
+#[test]
+fn wrong_experiments_are_refused() {
+    let cases = [
+        (
+            TERMINATION,
+            "axis = \"z\"",
+            "axis = \"w\"",
+            "e.toml:12",
+            "unknown variant",
+        ),
+        (
+            TERMINATION,
+            "{ scene = \"spd:balls:2\"",
+            "{ scene = \"spd:balls:9\"",
+            "e.toml:12",
+            "not among the scenes",
+        ),
+        (
+            TERMINATION,
+            "\"spd:tree:3\"",
+            "\"simple:soup:9\"",
+            "simple:soup:9",
+            "no camera",
+        ),
+        (SPLIT_COST, "rank = 1", "rank = 0", "e.toml:7", "has rank 1"),
+        (
+            SPLIT_COST,
+            "rank = 2",
+            "rnk = 2",
+            "e.toml:7",
+            "unknown field",
+        ),
+        (SPLIT_COST, "levels = 3", "levels = 8", "e.toml:8", "1 to 7"),
+        (SPLIT_COST, "lines = 500", "lines = 1", "e.toml:8", "2 to"),
+        (
+            SPLIT_COST,
+            "equal_within = 1e-12",
+            "equal_within = -1.0",
+            "e.toml:10",
+            "0 to 1",
+        ),
+    ];
+    for (good, old, new, place, wrong) in cases {
+        assert!(good.contains(old));
+        let folder = folder(&good.replacen(old, new, 1));
+        let stderr = validate(folder.path()).assert().code(2);
+        stderr.stderr(contains(place).and(contains(wrong)));
+        assert!(!folder.path().join("data").exists(), "{new}");
+    }
+}
