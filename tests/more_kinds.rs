@@ -23,7 +23,7 @@ checked = 50
 cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
 timing = { rounds = 2, builds = 2, pass_s = 0.002 }
 slice = { scene = "spd:balls:2", axis = "z", at = 0.3 }
-expect = { family = 0.001, primary_hits_within = 3 }
+expect = { family = 0.001 }
 "#;
 
 const SPLIT_COST: &str = r#"kind = "split-cost"

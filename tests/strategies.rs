@@ -31,7 +31,6 @@ pass_s = 0.002
 
 [expect]
 family = 0.001
-primary_hits_within = 3
 "#;
 
 fn folder(text: &str) -> tempfile::TempDir {
@@ -107,6 +106,12 @@ fn wrong_experiments_are_refused() {
     let cases = [
         ("rounds = 2", "rounds = 3", "e.toml:17:1", "even"),
         ("pass_s = 0.002", "pass_s = -1.0", "e.toml:19:1", "above 0"),
+        (
+            "family = 0.001",
+            "family = 0.001\nprimary_hits_within = 3",
+            "e.toml:23:1",
+            "512 pixels only",
+        ),
         ("pixels = 24", "pixels = 0", "e.toml:8:1", "1 to 8192"),
         (
             "\"automatic\"]",

@@ -31,7 +31,7 @@ pub(super) fn text(name: &str, plans: &[Plan]) -> String {
         let run = &plan.name;
         writeln!(
             text,
-            "validate run experiments/{run}.toml --out again; diff -r data/{run} again/data/{run}"
+            "validate run experiments/{run}.toml --out again; diff -r -x cells -x timings.csv -x 'times-*' data/{run} again/data/{run}"
         )
         .expect("in memory");
     }

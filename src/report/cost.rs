@@ -150,7 +150,7 @@ pub fn figure(cells: &[CellRecord], quick: bool) -> Result<Figure, ReportError> 
             },
         );
         let reach = reach(cells);
-        let y = Axis::linear("", -reach, reach, 4);
+        let y = Axis::linear("", -reach, reach, 5);
         let labels = y.ticks.iter().map(|tick| text_width(&tick.label, SMALL));
         // Beside the widest tick label.
         let side = FIRST - 7.5 - labels.fold(0.0, f64::max);

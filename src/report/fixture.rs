@@ -117,7 +117,7 @@ pub fn nodes(cell: &CellRecord, count: u64, least: f64) -> Vec<NodeRecord> {
 /// A summary whose figure shows the cell of `scene` and `sah`.
 pub fn summary(scene: &str) -> Summary {
     Summary {
-        schema: 2,
+        schema: crate::study::records::SCHEMA,
         experiment: "test".to_owned(),
         kind: "hits-vs-area".to_owned(),
         question: "a question".to_owned(),

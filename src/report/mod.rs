@@ -1,8 +1,8 @@
 //! Figures and tables of a finished run, from its files alone.
 //!
 //! [`read_run`] reads a data directory; [`write_plots`] and [`write_tables`] are functions of what it read. Nothing here
-//! knows of trees, scenes or lines: the only imports from the rest are the row types of [`crate::study::records`] and the
-//! cost formula.
+//! knows of trees, scenes or lines: the only imports from the rest are the row types of [`crate::study::records`], the
+//! cost formula and [`crate::files`].
 
 mod axis;
 mod bitmap;

@@ -118,6 +118,11 @@ pub fn counted(count: u64, noun: &str) -> String {
     )
 }
 
+/// A ratio as per cent above 1.
+pub fn percent_above(ratio: f64) -> f64 {
+    100.0 * (ratio - 1.0)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

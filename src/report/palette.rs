@@ -95,7 +95,8 @@ impl Look {
         ];
         Look {
             colour: SERIES[i % SERIES.len()],
-            marker: MARKERS[i % MARKERS.len()],
+            // The second round of shapes begins one further on: a blue disc and a sky blue one look alike.
+            marker: MARKERS[(i + i / MARKERS.len()) % MARKERS.len()],
         }
     }
 }

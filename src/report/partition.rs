@@ -23,7 +23,7 @@ const TALLEST: f64 = 1.6;
 /// Above so many cells or pieces in all a picture would take megabytes.
 const MOST: usize = 60_000;
 
-/// The figure of a slice; `None` where it has no cells or too many.
+/// The figure of a slice; `None` where it has no cells or too many. Objects are left out where there are too many of them.
 pub fn figure(cells: &[SliceRecord], outlines: &[OutlineRecord], quick: bool) -> Option<Figure> {
     let first = cells.first()?;
     let strategies = distinct(cells.iter().map(|cell| cell.strategy.as_str()));
@@ -33,10 +33,12 @@ pub fn figure(cells: &[SliceRecord], outlines: &[OutlineRecord], quick: bool) ->
     };
     let (u_lo, v_lo) = (window.u.0, window.v.0);
     let (across, up) = (window.u.1 - u_lo, window.v.1 - v_lo);
-    let drawn = cells.len() + strategies.len() * outlines.len();
-    if across <= 0.0 || up <= 0.0 || drawn > MOST {
+    if across <= 0.0 || up <= 0.0 || cells.len() > MOST {
         return None;
     }
+    // Rather the cells without the objects than neither.
+    let drawn = cells.len() + strategies.len() * outlines.len();
+    let outlines = if drawn > MOST { &[] } else { outlines };
     let columns = COLUMNS.min(strategies.len());
     let room = (WIDTH - 2.0 * LEFT + GAP) / columns as f64 - GAP;
     // One scale for both directions.
@@ -52,7 +54,8 @@ pub fn figure(cells: &[SliceRecord], outlines: &[OutlineRecord], quick: bool) ->
     };
     let most = cells.iter().map(|cell| cell.objects).max().unwrap_or(0);
     let caption = format!(
-        "{}, plane {} = {}: {u} to the right from {} to {}, {v} upwards from {} to {}, one scale for both. Cells are leaves, the darker the more objects they hold (white: none; \
+        "{}, plane {} = {}: {u} to the right from {} to {}, {v} upwards from {} to {}, one scale for both. Cells are leaves, the \
+         darker the more objects they hold (white: none; \
          darkest: {}). Red: objects where the plane cuts them. Stop {}.",
         first.scene,
         first.axis,

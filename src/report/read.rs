@@ -11,7 +11,7 @@ use super::hits::Hits;
 use super::split_cost::SplitCost;
 use super::strategies::Strategies;
 use super::termination::Termination;
-use crate::study::records::Summary;
+use crate::study::records::{SCHEMA, Summary};
 
 /// What a finished run left behind.
 #[derive(Clone, Debug)]
@@ -51,11 +51,21 @@ impl Run {
 pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
     let path = dir.join("summary.json");
     let file = open(&path)?;
-    let summary: Summary =
-        serde_json::from_reader(io::BufReader::new(file)).map_err(|source| ReportError::Json {
-            path: path.clone(),
-            source,
-        })?;
+    let not_json = |source| ReportError::Json {
+        path: path.clone(),
+        source,
+    };
+    let value: serde_json::Value =
+        serde_json::from_reader(io::BufReader::new(file)).map_err(not_json)?;
+    if let Some(layout) = value["schema"].as_u64().filter(|&n| n != u64::from(SCHEMA)) {
+        return Err(ReportError::Empty {
+            what: format!(
+                "{}: of layout {layout}, but this program reads {SCHEMA}; run the experiment again",
+                path.display()
+            ),
+        });
+    }
+    let summary: Summary = serde_json::from_value(value).map_err(not_json)?;
     let content = match summary.kind.as_str() {
         "hits-vs-area" => Content::Hits(Hits::read(dir)?),
         "strategies" => Content::Strategies(Strategies::read(dir)?),

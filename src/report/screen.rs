@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::number::{counted, grouped, significant};
+use super::number::{counted, grouped, percent_above, significant};
 use super::table::fold;
 use super::{Content, Hits, Run, strategies, tables};
 use crate::study::records::{CellRecord, TimingRecord};
@@ -114,7 +114,7 @@ fn advice(cells: &[CellRecord]) -> String {
 }
 
 fn per_cent_more(cost: f64, least: f64) -> f64 {
-    100.0 * (cost / least - 1.0)
+    percent_above(cost / least)
 }
 
 /// Whether a saving of so many per cent is one (it is none where costs are 0 and their ratio no number).

@@ -91,7 +91,7 @@ impl SplitCost {
                 percent(r.samples_excess_mean, 2),
                 Cell::Count(r.even),
                 r.even_apart
-                    .map_or(Cell::Missing, |v| Cell::Text(format!("{v:.1e}"))),
+                    .map_or(Cell::Missing, |v| Cell::Text(scientific(v))),
                 Cell::Count(r.straddled),
                 signed(r.apart_q05),
                 signed(r.apart_q50),
@@ -173,4 +173,12 @@ impl SplitCost {
         }
         text
     }
+}
+
+/// A difference of the size of rounding.
+fn scientific(value: f64) -> String {
+    if value == 0.0 {
+        return "0".to_owned();
+    }
+    format!("{value:.1e}")
 }

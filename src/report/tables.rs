@@ -88,6 +88,7 @@ pub fn trees(cells: &[CellRecord]) -> Table {
         Column::right("leaves", "leaves"),
         Column::right("empty", "empty_leaves"),
         Column::right("references", "references"),
+        Column::right("bytes", "bytes"),
         Column::right("depth", "depth"),
     ];
     let row = |cell: &CellRecord| {
@@ -97,6 +98,7 @@ pub fn trees(cells: &[CellRecord]) -> Table {
             cell.leaves,
             cell.empty_leaves,
             cell.references,
+            cell.bytes,
             cell.depth,
         ];
         let mut row = vec![
@@ -108,7 +110,7 @@ pub fn trees(cells: &[CellRecord]) -> Table {
     };
     Table {
         caption: "Trees: inner nodes, leaves (empty ones among them), references (an object in several leaves counts each \
-                  time), depth of the deepest leaf."
+                  time), bytes that a traversal reads (nodes and references), depth of the deepest leaf."
             .to_owned(),
         columns,
         keys: 2,

@@ -20,8 +20,7 @@ pub use plan::{Kind, Plan, PlanError};
 use store::{EXPERIMENT, Store, StoreError};
 pub use watcher::Watcher;
 
-/// Version of the layout of `data/`.
-pub const SCHEMA: u32 = 2;
+pub use records::SCHEMA;
 
 /// Level of an estimate's own interval.
 pub const LEVEL: f64 = 0.99;

@@ -11,7 +11,7 @@ mod run;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, bail};
 use clap::Parser;
 use sahlab::cost::CostModel;
 use sahlab::files::write_atomic;
@@ -80,6 +80,13 @@ fn execute(cli: &Cli) -> Result<bool> {
         lines: common.lines,
         quick: common.quick,
     };
+    let writes = matches!(
+        cli.command,
+        Some(Command::Plots { .. } | Command::Tables { .. } | Command::Publish { .. })
+    );
+    if common.dry_run && writes {
+        bail!("--dry-run says what would be measured; this command measures nothing");
+    }
     match &cli.command {
         None => {
             let plans = EXPERIMENTS[..DEFAULT].iter().map(|(name, text)| {
@@ -232,7 +239,10 @@ fn one_scene(
     };
     let scenes = run::load_scenes(&mut plan, None)?;
     let quick = if common.quick { "-quick" } else { "" };
-    plan.name = format!("scene-{}{quick}", file_name_of(&plan.scenes[0]));
+    plan.name = format!(
+        "scene-{}{quick}",
+        sahlab::study::records::file_stem(&plan.scenes[0])
+    );
     let plans = [(plan, scenes)];
     let held = run_loaded(&plans, common, screen::scene)?;
     let [(plan, scenes)] = &plans;
@@ -275,13 +285,6 @@ fn write_nff(spec: &str, file: &Path, digits: u8, common: &Common) -> Result<boo
     Ok(true)
 }
 
-/// A scene's name as a part of a path: its words, with one dash between them.
-fn file_name_of(scene: &str) -> String {
-    let words = scene.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
-    words.join("-")
-}
-
 fn list(what: Option<Listed>) -> String {
     let mut text = String::new();
     let mut section = |listed: Listed, title: &str, rows: Vec<(String, String)>| {
@@ -291,8 +294,9 @@ fn list(what: Option<Listed>) -> String {
         if what.is_none() {
             text += &format!("{title}\n");
         }
+        let widest = rows.iter().map(|(name, _)| name.len()).max().unwrap_or(0);
         for (name, about) in rows {
-            text += &format!("  {name:26} {about}\n");
+            text += &format!("  {name:widest$}  {about}\n");
         }
     };
     let mut scenes = catalogue();
@@ -326,18 +330,4 @@ fn list(what: Option<Listed>) -> String {
 
 fn paths(files: &[PathBuf]) -> String {
     files.iter().map(|f| format!("{}\n", f.display())).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn scenes_of_different_folders_have_folders_of_their_own() {
-        assert_eq!(file_name_of("spd:balls:4"), "spd-balls-4");
-        assert_eq!(file_name_of("sub/one.off"), "sub-one-off");
-        assert_eq!(file_name_of("./a__b/..//c (1).obj"), "a-b-c-1-obj");
-        assert_ne!(file_name_of("x/one.obj"), file_name_of("y/one.obj"));
-        assert_ne!(file_name_of("one.ply"), file_name_of("one.obj"));
-    }
 }

@@ -1,4 +1,5 @@
-//! The traced picture of a scene, and what each of its rays cost.
+//! The traced picture of a scene, and what each of its rays cost: drawn from the scene, not from files, so that `validate plots`
+//! does not draw it again.
 
 use std::path::Path;
 

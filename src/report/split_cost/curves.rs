@@ -27,12 +27,25 @@ pub fn figure(nodes: &[Node], points: &[CurveRecord], summary: &Summary) -> Opti
     if shown.is_empty() {
         return None;
     }
+    let is_drawn = |p: &&CurveRecord| {
+        let same = |n: &&&Node| (&n.scene, n.rank, &n.axis) == (&p.scene, p.rank, &p.axis);
+        shown
+            .iter()
+            .find(same)
+            .is_some_and(|n| p.f.max(p.f_centres) > MOST * n.objects as f64)
+    };
+    let cut_off = if points.iter().any(|p| is_drawn(&p)) {
+        format!(" Above {MOST} cut off.")
+    } else {
+        String::new()
+    };
     let caption = format!(
         "f(b) = LSA(b) L(b) + RSA(b) R(b), over n SA of the node: tests a line is expected to make, 1 being those of the node \
          left a leaf. Each node on the axis where its least f is least; b from 0 to 1 across it. Straddlers: share of the n \
          objects that the plane cuts. By centres: every object counted once, where its centre lies. Trees of strategy sah, \
-         stop {}. Above {MOST} cut off.",
-        summary.stop.as_deref().unwrap_or("unknown")
+         stop {}, seed {}.{cut_off}",
+        summary.stop.as_deref().unwrap_or("unknown"),
+        summary.seed
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
     let keys = [

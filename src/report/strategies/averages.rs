@@ -1,5 +1,7 @@
 //! One strategy against another over many scenes, as one number: several ways to average, for they disagree.
 
+use std::collections::BTreeMap;
+
 use statrs::distribution::{ContinuousCDF, StudentsT};
 
 /// Level of the interval of a geometric mean.
@@ -14,7 +16,8 @@ pub struct Averages<'r> {
     pub mean: f64,
     /// Geometric mean: twice as slow on one scene and twice as fast on another make 1.
     pub geometric: f64,
-    /// Its 99 % interval: Student's t of the mean logarithm, scenes being the sample. None for less than two.
+    /// Its 99 % interval: Student's t of the mean logarithm. The sizes of one scene are like each other, so together they are
+    /// one observation. None for less than two.
     pub interval: Option<[f64; 2]>,
     /// Median.
     pub median: f64,
@@ -39,7 +42,7 @@ impl<'r> Averages<'r> {
             scenes,
             mean: sorted.iter().map(|&(_, ratio)| ratio).sum::<f64>() / n,
             geometric: libm::exp(mean_log),
-            interval: half_width(&logs, mean_log)
+            interval: half_width(&sorted, &logs, mean_log)
                 .map(|half| [mean_log - half, mean_log + half].map(libm::exp)),
             median: 0.5 * (middle((scenes - 1) / 2) + middle(scenes / 2)),
             best,
@@ -48,15 +51,25 @@ impl<'r> Averages<'r> {
     }
 }
 
-/// Half of Student's interval of a mean.
-fn half_width(values: &[f64], mean: f64) -> Option<f64> {
-    let n = values.len() as f64;
-    let law = StudentsT::new(0.0, 1.0, n - 1.0).ok()?;
-    let squares: f64 = values
-        .iter()
-        .map(|value| (value - mean) * (value - mean))
-        .sum();
-    let se = (squares / (n - 1.0) / n).sqrt();
+/// What all sizes of a scene have in common: `spd:balls` of `spd:balls:4`.
+fn family(scene: &str) -> &str {
+    match scene.rsplit_once(':') {
+        Some((family, _)) if family.contains(':') => family,
+        _ => scene,
+    }
+}
+
+/// Half of Student's interval of the mean of the logarithms, whose deviations within a family add up (the sandwich
+/// estimator of clustered observations).
+fn half_width(ratios: &[(&str, f64)], logs: &[f64], mean: f64) -> Option<f64> {
+    let mut families: BTreeMap<&str, f64> = BTreeMap::new();
+    for ((scene, _), log) in ratios.iter().zip(logs) {
+        *families.entry(family(scene)).or_default() += log - mean;
+    }
+    let (n, c) = (logs.len() as f64, families.len() as f64);
+    let law = StudentsT::new(0.0, 1.0, c - 1.0).ok()?;
+    let squares: f64 = families.values().map(|sum| sum * sum).sum();
+    let se = (c / (c - 1.0) * squares).sqrt() / n;
     Some(law.inverse_cdf(0.5 + 0.5 * LEVEL) * se)
 }
 
@@ -77,6 +90,24 @@ mod tests {
         let [lo, hi] = averages.interval.unwrap().map(f64::log2);
         assert!((lo - (0.75 - half)).abs() < 1e-5, "{lo}");
         assert!((hi - (0.75 + half)).abs() < 1e-5, "{hi}");
+    }
+
+    #[test]
+    fn sizes_of_a_scene_are_one_observation() {
+        let ratios = [
+            ("spd:a:1", 2.0),
+            ("spd:a:2", 2.0),
+            ("spd:b:1", 8.0),
+            ("spd:b:2", 8.0),
+        ];
+        let [lo, hi] = Averages::of(&ratios).unwrap().interval.unwrap();
+        // As two observations, 1 and 3 to base 2: mean 2, standard error 1, t of one degree at 99 % 63.657.
+        assert!((lo.log2() - (2.0 - 63.6567)).abs() < 1e-3, "{lo}");
+        assert!((hi.log2() - (2.0 + 63.6567)).abs() < 1e-3, "{hi}");
+        let one = [("spd:a:1", 2.0), ("spd:a:2", 4.0)];
+        assert_eq!(Averages::of(&one).unwrap().interval, None);
+        assert_eq!(family("models/a.obj"), "models/a.obj");
+        assert_eq!(family("spd:a:1"), "spd:a");
     }
 
     #[test]

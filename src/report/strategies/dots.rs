@@ -348,7 +348,7 @@ fn caption(part: &Part, series: &[Series], measure: Measure) -> String {
     });
     format!(
         "{}, as a multiple of {REFERENCE}'s.{two_panels} Bars at geometric means: 99 % intervals (Student's t of the \
-         logarithms, scenes being the sample). Shaded: Havran (2000), total time over 30 scenes of the same \
+         logarithms, the sizes of one scene together being one observation). Shaded: Havran (2000), total time over 30 scenes of the same \
          databases.{worst} {}",
         capitalised(measure.meaning()),
         provenance(&part.cells)

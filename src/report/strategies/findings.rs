@@ -5,9 +5,9 @@ use std::fmt::Write;
 use super::averages::Averages;
 use super::greedy;
 use super::havran::{self, NAMES};
-use super::part::{Measure, Part, REFERENCE, percent};
+use super::part::{Measure, Part, REFERENCE};
 use super::tables::Spread;
-use crate::report::number::{counted, fixed, signed};
+use crate::report::number::{counted, fixed, percent_above, signed};
 use crate::report::series::distinct;
 use crate::report::text::capitalised;
 
@@ -84,7 +84,7 @@ pub fn judged(part: &Part, measure: Measure) -> Vec<Finding> {
 
 /// A geometric mean and its interval: "+88 % (+41 to +150)".
 fn geometric(averages: &Averages) -> String {
-    let show = |ratio| in_percent(percent(ratio));
+    let show = |ratio| in_percent(percent_above(ratio));
     let interval = averages.interval.map_or(String::new(), |[lo, hi]| {
         format!(" ({} to {})", show(lo), show(hi))
     });
@@ -147,8 +147,9 @@ fn cost_driven_alike(part: &Part, measure: Measure) -> Option<Finding> {
         return None;
     };
     let ends = |a: &Averages| {
-        let end =
-            |(scene, ratio): (&str, f64)| format!("{} % on {scene}", in_percent(percent(ratio)));
+        let end = |(scene, ratio): (&str, f64)| {
+            format!("{} % on {scene}", in_percent(percent_above(ratio)))
+        };
         format!("{}, from {} to {}", geometric(a), end(a.best), end(a.worst))
     };
     Some(Finding {
@@ -174,13 +175,29 @@ fn object_beats_spatial(part: &Part, measure: Measure) -> Option<Finding> {
         claim: "the object median (2) beats the spatial one (1), which the one-level theory calls its equal",
         measure,
         numbers: format!(
-            "against {object}, {spatial} takes {}, median {} %, and more on {slower} of {}",
+            "against {object}, {spatial} takes {}, median {} %, and more on {slower} of {}{}",
             geometric(&averages),
-            in_percent(percent(averages.median)),
+            in_percent(percent_above(averages.median)),
             counted(ratios.len() as u64, "scene"),
+            arithmetic(part, measure),
         ),
         judgement: Judgement::of(&[averages], [1.0, f64::INFINITY]),
     })
+}
+
+/// Both medians by the arithmetic mean, as Havran took it.
+fn arithmetic(part: &Part, measure: Measure) -> String {
+    let means = MEDIANS.map(|median| over(part, measure, median, REFERENCE));
+    let [Some(spatial), Some(object)] = means else {
+        return String::new();
+    };
+    format!(
+        "; by the arithmetic mean against {REFERENCE}, as he took it, {} takes {} % and {} {} %",
+        MEDIANS[0],
+        in_percent(percent_above(spatial.mean)),
+        MEDIANS[1],
+        in_percent(percent_above(object.mean))
+    )
 }
 
 /// The findings by exact cost.
@@ -208,8 +225,8 @@ pub fn by_time(part: &Part) -> String {
 
 fn head(part: &Part, by: &str) -> String {
     format!(
-        "{by}: {}, {}, stop {}. Geometric means with their 99 % intervals (Student's t of the logarithms, scenes being \
-         the sample). A claim holds where all its intervals lie on its side, and does not where one lies on the other; \
+        "{by}: {}, {}, stop {}. Geometric means with their 99 % intervals (Student's t of the logarithms, the sizes \
+         of one scene together being one observation). A claim holds where all its intervals lie on its side, and does not where one lies on the other; \
          strategies differ little within {} %.\n\n",
         counted(part.scenes.len() as u64, "scene"),
         match part.strategies.len() {
@@ -258,13 +275,17 @@ fn rulers(part: &Part, measure: Measure) -> String {
         }
         ratios.sort_by(|a, b| b.1.total_cmp(&a.1));
         let mean = |ratios: &[(&str, f64)]| {
-            ratios.iter().map(|&(_, ratio)| percent(ratio)).sum::<f64>() / ratios.len() as f64
+            ratios
+                .iter()
+                .map(|&(_, ratio)| percent_above(ratio))
+                .sum::<f64>()
+                / ratios.len() as f64
         };
         let all = mean(&ratios);
         if all < TELLING {
             continue;
         }
-        let share = |ratio: f64| percent(ratio) / ratios.len() as f64 / all;
+        let share = |ratio: f64| percent_above(ratio) / ratios.len() as f64 / all;
         let ruling: Vec<String> = ratios
             .iter()
             .map(|&(scene, ratio)| (scene, share(ratio)))
@@ -346,8 +367,8 @@ fn loss(part: &Part, measure: Measure) -> Option<String> {
          (geometric mean), at worst {} % on {}.",
         measure.name(),
         counted(averages.scenes as u64, "scene"),
-        in_percent(percent(averages.geometric)),
-        in_percent(percent(averages.worst.1)),
+        in_percent(percent_above(averages.geometric)),
+        in_percent(percent_above(averages.worst.1)),
         averages.worst.0
     ))
 }

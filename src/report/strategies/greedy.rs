@@ -1,7 +1,8 @@
 //! Where the greedy choice loses: the reference takes the best plane at each node, not the best tree.
 
-use super::part::{Measure, Part, REFERENCE, percent};
+use super::part::{Measure, Part, REFERENCE};
 use super::tables::change;
+use crate::report::number::percent_above;
 use crate::report::table::{Cell, Column, Table};
 pub use crate::report::tables::EQUAL;
 
@@ -20,7 +21,10 @@ pub fn better<'r>(part: &Part<'r>) -> Vec<Better<'r>> {
     let mut found = Vec::new();
     for &scene in &part.scenes {
         for &strategy in &part.strategies {
-            let of = |measure| part.ratio(measure, scene, strategy, REFERENCE).map(percent);
+            let of = |measure| {
+                part.ratio(measure, scene, strategy, REFERENCE)
+                    .map(percent_above)
+            };
             let percent = Measure::COSTS.map(of);
             if percent.iter().flatten().any(|&percent| percent < -EQUAL) {
                 found.push(Better {

@@ -175,8 +175,3 @@ impl<'r> Part<'r> {
         self.scenes.iter().filter_map(of).collect()
     }
 }
-
-/// A ratio as a difference in per cent.
-pub fn percent(ratio: f64) -> f64 {
-    100.0 * (ratio - 1.0)
-}

@@ -6,10 +6,10 @@ use super::Strategies;
 use super::averages::Averages;
 use super::findings::{Judgement, judged};
 use super::havran;
-use super::part::{Measure, Part, REFERENCE, percent};
+use super::part::{Measure, Part, REFERENCE};
 use super::tables::change;
 use crate::report::Run;
-use crate::report::number::counted;
+use crate::report::number::{counted, percent_above};
 use crate::report::screen::{WIDTH, verdicts};
 use crate::report::table::{Cell, Column, Table, fold};
 use crate::study::records::file_stem;
@@ -63,7 +63,8 @@ fn table(part: &Part) -> Table {
     ];
     let row = |&strategy: &&str| {
         let of = |measure| Averages::of(&part.ratios(measure, strategy, REFERENCE));
-        let show = |ratio: Option<f64>| ratio.map_or(Cell::Missing, |ratio| change(percent(ratio)));
+        let show =
+            |ratio: Option<f64>| ratio.map_or(Cell::Missing, |ratio| change(percent_above(ratio)));
         let total = of(Measure::Total);
         let havran = havran::row(strategy);
         let mut row = vec![

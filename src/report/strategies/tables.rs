@@ -5,8 +5,8 @@ mod times;
 
 use super::averages::Averages;
 use super::havran;
-use super::part::{Measure, Part, REFERENCE, percent};
-use crate::report::number::{counted, digits_for};
+use super::part::{Measure, Part, REFERENCE};
+use crate::report::number::{counted, digits_for, percent_above};
 use crate::report::table::{Cell, Column, Table};
 
 pub use rays::{ray_counts, rays};
@@ -19,7 +19,7 @@ pub fn change(percent: f64) -> Cell {
 
 /// A ratio as such a difference, where it is known.
 fn change_of(ratio: Option<f64>) -> Cell {
-    ratio.map_or(Cell::Missing, |ratio| change(percent(ratio)))
+    ratio.map_or(Cell::Missing, |ratio| change(percent_above(ratio)))
 }
 
 /// A number without a known error.
@@ -186,7 +186,7 @@ pub fn averages(part: &Part, measures: &[Measure]) -> Table {
     Table {
         caption: format!(
             "Strategies over {}, stop {}: {RELATIVE}. {SOURCE}. Ours: {}. From, to: 99 % interval of the geometric mean \
-             (Student's t of the logarithms, scenes being the sample).",
+             (Student's t of the logarithms, the sizes of one scene together being one observation).",
             scenes_of(part),
             part.stop,
             meanings(measures)

@@ -1,11 +1,12 @@
 //! The report of kind `strategies` as a whole: hand-checked numbers, no seconds where none may be, nothing off the page.
 
+use crate::report::number::percent_above;
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
 use super::fixture::{STOPS, run, strategies, summary};
-use super::part::{Measure, Part, percent};
+use super::part::{Measure, Part};
 use super::{Strategies, averages, dots, findings, greedy, tables};
 use crate::report::table::{Cell, Table};
 use crate::report::tests::assert_on_page;
@@ -315,6 +316,9 @@ fn half_a_run_is_reported() {
     assert_eq!(scenes(Measure::Traced), [("spd:tree:11", 32.0)]);
     assert_eq!(scenes(Measure::Total), [("spd:gears:4", 4.0)]);
     let averages = averages::Averages::of(&scenes(Measure::Total)).unwrap();
-    assert_eq!((percent(averages.mean), averages.interval), (300.0, None));
+    assert_eq!(
+        (percent_above(averages.mean), averages.interval),
+        (300.0, None)
+    );
     files(run);
 }

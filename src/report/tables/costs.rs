@@ -1,7 +1,7 @@
 //! What trees cost, scene by scene.
 
 use crate::report::cost::Pair;
-use crate::report::number::{Z99, decimals_for, signed};
+use crate::report::number::{Z99, decimals_for, percent_above, signed};
 use crate::report::series::{Series, constants};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::CellRecord;
@@ -98,7 +98,7 @@ pub fn strategies(cells: &[CellRecord]) -> Table {
                     .iter()
                     .map(|&strategy| match (find(strategy), reference) {
                         (Some(cell), Some(reference)) if cost(reference) > 0.0 => Cell::Change(
-                            100.0 * (cost(cell) / cost(reference) - 1.0),
+                            percent_above(cost(cell) / cost(reference)),
                             change_decimals(cell, reference),
                         ),
                         _ => Cell::Missing,
@@ -178,7 +178,7 @@ fn least_and_most(
     reference: Option<&CellRecord>,
 ) -> [String; 2] {
     let equal = |cell: &CellRecord| {
-        let percent = 100.0 * (cell.c_counted / least.c_counted - 1.0);
+        let percent = percent_above(cell.c_counted / least.c_counted);
         percent.is_nan() || percent <= EQUAL
     };
     if equal(most) {
@@ -187,7 +187,7 @@ fn least_and_most(
     let least = reference.filter(|cell| equal(cell)).unwrap_or(least);
     [least, most].map(|cell| match reference {
         Some(reference) if cell.strategy != reference.strategy => {
-            let change = 100.0 * (cell.c_counted / reference.c_counted - 1.0);
+            let change = percent_above(cell.c_counted / reference.c_counted);
             format!("{} {} %", cell.strategy, signed(change, 1))
         }
         _ => cell.strategy.clone(),

@@ -2,7 +2,7 @@
 
 use super::{Measure, Setting, best};
 use crate::report::cost::Pair;
-use crate::report::number::signed;
+use crate::report::number::{percent_above, signed};
 use crate::report::series::distinct;
 use crate::report::table::{Cell, Column, Table};
 
@@ -54,7 +54,7 @@ impl<'s, 'r> Group<'s, 'r> {
     /// Per cent that a value is above the least of all rules.
     fn above(&self, measure: Measure, value: f64) -> Option<f64> {
         let (_, least) = best(measure, self.all.iter().copied())?;
-        Some(100.0 * (value / least - 1.0))
+        Some(percent_above(value / least))
     }
 
     /// Setting, value and per cent.

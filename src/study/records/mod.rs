@@ -1,8 +1,8 @@
-//! What a run leaves behind: the rows of `cells.csv`, `nodes.csv`, `bins.csv` and `timings.csv`, and the summary.
+//! What a run leaves behind: the rows of its CSV files, and the summary.
 //!
 //! One flat struct a file, full precision, unknown is `None` (an empty cell, never 0 or NaN). Everything that reads
-//! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] holds times, so every other
-//! file is byte-identical for any number of threads.
+//! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] and [`PassTiming`], both
+//! rows of `timings.csv`, hold times, so every other file is byte-identical for any number of threads.
 
 mod split_cost;
 mod strategies;
@@ -11,6 +11,9 @@ use serde::{Deserialize, Serialize};
 
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
+
+/// Version of the layout of `data/`.
+pub const SCHEMA: u32 = 2;
 
 /// One cell of a study: one scene, one tree, one set of lines. A row of `cells.csv`.
 ///
@@ -125,13 +128,6 @@ pub struct CellRecord {
     pub hotelling_p: Option<f64>,
     /// Independent contrasts in that test.
     pub contrasts: u64,
-}
-
-/// The name of a scene or stop rule as part of a file name: its words with dashes between them.
-pub fn file_stem(name: &str) -> String {
-    let words = name.split(|c: char| !c.is_alphanumeric());
-    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
-    words.join("-")
 }
 
 /// One node. A row of `nodes.csv`.
@@ -330,4 +326,25 @@ pub struct Estimate {
     pub lo_all: Option<f64>,
     /// Upper end of the interval that holds for all estimates of the run together.
     pub hi_all: Option<f64>,
+}
+
+/// The name of a scene or stop rule as part of a file name: its words with dashes between them.
+pub fn file_stem(name: &str) -> String {
+    let words = name.split(|c: char| !c.is_alphanumeric());
+    let words: Vec<_> = words.filter(|word| !word.is_empty()).collect();
+    words.join("-")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::file_stem;
+
+    #[test]
+    fn scenes_of_different_folders_have_files_of_their_own() {
+        assert_eq!(file_stem("spd:balls:4"), "spd-balls-4");
+        assert_eq!(file_stem("sub/one.off"), "sub-one-off");
+        assert_eq!(file_stem("./a__b/..//c (1).obj"), "a-b-c-1-obj");
+        assert_ne!(file_stem("x/one.obj"), file_stem("y/one.obj"));
+        assert_ne!(file_stem("one.ply"), file_stem("one.obj"));
+    }
 }

@@ -1,4 +1,4 @@
-//! What a run of kind `strategies` leaves behind besides `cells.csv`.
+//! What a run of kind `strategies` or `termination` leaves behind besides `cells.csv`.
 
 use serde::{Deserialize, Serialize};
 

@@ -58,6 +58,9 @@ const MOST_LINES: u64 = 1 << 32;
 impl SplitCost {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
+        wrong_unless(self.samples >= 1, "samples", || {
+            "samples = 0, but at least 1 plane must lie between the medians".into()
+        })?;
         for CurveOf { scene, rank } in &self.curves {
             wrong_unless(scenes.contains(scene), "curves", || {
                 format!("the curves' scene '{scene}' is not among the scenes")

@@ -200,7 +200,7 @@ fn same_cells(octrees: &[&OctreeRecord]) -> Verdict {
 pub(super) fn describe(plan: &Plan, asked: &SplitCost, scenes: &[Scene]) -> String {
     let line = |scene: &Scene| {
         format!(
-            "{}  {:24} {:>9} objects, {} curves\n",
+            "{}  {:24} {:>9} objects, {} nodes drawn\n",
             identity(plan, asked, scene),
             scene.name,
             scene.bounds.len(),

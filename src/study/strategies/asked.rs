@@ -6,6 +6,7 @@ use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::tracer::PIXELS;
 
 use super::slices::SliceOf;
 
@@ -52,8 +53,8 @@ pub struct Timing {
 pub struct Expect {
     /// Chance that any of the simultaneous intervals of a correct run misses its prediction.
     pub family: f64,
-    /// Eye rays that hit something may differ from the published number by this many.
-    pub primary_hits_within: u64,
+    /// Eye rays that hit something may differ from the published number by this many: of full pictures only.
+    pub primary_hits_within: Option<u64>,
 }
 
 impl Strategies {
@@ -83,6 +84,20 @@ impl Strategies {
         }
         wrong_unless(pass_s > 0.0 && pass_s.is_finite(), "timing.pass_s", || {
             format!("timing.pass_s = {pass_s}, but it must be a number above 0")
+        })?;
+        let full = self.pixels == PIXELS;
+        wrong_unless(
+            full || self.expect.primary_hits_within.is_none(),
+            "expect.primary_hits_within",
+            || {
+                format!(
+                    "expect.primary_hits_within judges pictures of {PIXELS} pixels only, but pixels = {}",
+                    self.pixels
+                )
+            },
+        )?;
+        wrong_unless(self.checked >= 1, "checked", || {
+            "checked = 0, but some eye rays must be held against brute force".into()
         })?;
         check_family(self.expect.family)?;
         if let Some(slice) = &self.slice {
