@@ -39,7 +39,7 @@ pub(super) fn text(name: &str, plans: &[Plan]) -> String {
     let meshes: Vec<_> = plans.iter().flat_map(meshes).collect();
     if !meshes.is_empty() {
         text += "\nMeshes are not packed. They must lie at these paths, seen from where the command is given; another mesh is\n\
-                 refused by the digest of its objects' boxes:\n\n| mesh | digest |\n|:---|:---|\n";
+                 refused by the digest of its objects and look:\n\n| mesh | digest |\n|:---|:---|\n";
         for (mesh, digest) in meshes {
             writeln!(text, "| `{mesh}` | `{digest}` |").expect("in memory");
         }

@@ -125,7 +125,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let figures = match &run.content {
         Content::Hits(hits) => named(hits.figures(&run.summary)?),
         Content::Strategies(strategies) => strategies.figures(&run.summary)?,
-        Content::Termination(trees) => trees.figures(&run.summary),
+        Content::Termination(trees) => trees.figures(&run.summary)?,
         Content::SplitCost(nodes) => nodes.figures(&run.summary),
     };
     let mut files = Vec::new();

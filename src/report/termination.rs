@@ -7,9 +7,10 @@ mod figure;
 mod table;
 
 use super::series::{distinct, provenance};
+use super::strategies::gallery;
 use super::strategies::part::{Measure, Tree};
 use super::table::Table;
-use super::{Figure, Strategies, tables};
+use super::{Figure, ReportError, Strategies, tables};
 use crate::study::records::Summary;
 
 /// The files of a run of kind `termination`: those of kind `strategies`.
@@ -63,7 +64,7 @@ impl Termination {
     }
 
     /// `termination` and `times-termination`, for each strategy and four scenes each.
-    pub(super) fn figures(&self, summary: &Summary) -> Vec<(String, Figure)> {
+    pub(super) fn figures(&self, summary: &Summary) -> Result<Vec<(String, Figure)>, ReportError> {
         let settings = self.settings();
         let scenes = distinct(self.0.cells.iter().map(|cell| cell.scene.as_str()));
         let mut figures = Vec::new();
@@ -94,7 +95,8 @@ impl Termination {
             }
         }
         figures.extend(self.0.partition(summary.quick));
-        figures
+        figures.extend(gallery::figures(&self.0, summary)?);
+        Ok(figures)
     }
 
     pub(super) fn tables(&self, summary: &Summary) -> Vec<(&'static str, Table)> {
@@ -176,6 +178,8 @@ pub mod tests {
                             half_b_s: seconds,
                             disturbed: false,
                             load_average: None,
+                            revision: String::new(),
+                            pass_s: 0.1,
                         });
                     });
                 }

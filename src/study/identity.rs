@@ -10,7 +10,7 @@ pub fn digest(bytes: &[u8]) -> String {
     hash.iter().take(8).map(|b| format!("{b:02x}")).collect()
 }
 
-/// A scene's content: the boxes are all that a tree and its counts depend on.
+/// A scene's boxes: all that an unclipped tree and the counts of lines depend on.
 pub fn content(scene: &Scene) -> String {
     let numbers = scene
         .bounds
@@ -20,7 +20,12 @@ pub fn content(scene: &Scene) -> String {
     digest(&bytes)
 }
 
-/// Seed of a scene's lines: the run's and the scene's content.
+/// All of a scene: its objects and, if it has one, its look, on which clipped trees, rays and pictures depend.
+pub fn whole(scene: &Scene) -> String {
+    digest(format!("{:?} {:?}", scene.objects, scene.look).as_bytes())
+}
+
+/// Seed of a scene's lines: the run's and the scene's boxes.
 pub fn line_seed(seed: u64, content: &str) -> u64 {
     let hash = Sha256::digest(format!("lines of {content}, seed {seed}"));
     u64::from_le_bytes(std::array::from_fn(|i| hash[i]))

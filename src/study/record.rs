@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::Scene;
 
-use super::identity::content;
+use super::identity::whole;
 use super::plan::{Overrides, PlanError, one_line};
 
 /// What a run was asked for.
@@ -83,7 +83,7 @@ impl Record {
 
     /// The text to keep with a run of this program over these scenes.
     pub fn recorded(&self, scenes: &[Scene]) -> String {
-        let contents = scenes.iter().map(|s| (s.name.clone(), content(s)));
+        let contents = scenes.iter().map(|s| (s.name.clone(), whole(s)));
         let tail = Tail {
             run: Ran {
                 experiment: self.experiment.clone(),
@@ -101,13 +101,13 @@ impl Record {
     /// matter, nor is anything where no run is recorded.
     pub fn check_scenes(&self, scenes: &[Scene]) -> Result<(), String> {
         for scene in scenes {
-            let found = content(scene);
+            let found = whole(scene);
             if let Some(wanted) = self.scenes.get(&scene.name)
                 && *wanted != found
             {
                 return Err(format!(
-                    "{}: its objects' boxes have the digest {found}, those of the recorded run {wanted}; the scene is not \
-                     the one that was counted then: put that one in its place, or remove [run] for a run of its own",
+                    "{}: its objects and look have the digest {found}, those of the recorded run {wanted}; the scene is \
+                     not the one that was counted then: put that one in its place, or remove [run] for a run of its own",
                     scene.name
                 ));
             }

@@ -120,6 +120,11 @@ impl Store {
         reader.deserialize().collect::<Result<_, _>>().ok()
     }
 
+    /// Whether a file of the run is there.
+    pub fn has(&self, name: &str) -> bool {
+        self.folder.join(name).is_file()
+    }
+
     /// Write the summary.
     pub fn write_summary(&self, summary: &Summary) -> Result<(), StoreError> {
         let mut json = serde_json::to_vec_pretty(summary).expect("records are plain data");

@@ -14,6 +14,8 @@ pub struct Tally {
     pub rays: u64,
     /// Rays that hit something.
     pub hits: u64,
+    /// Rays that hit something and did not when they were made, or the other way round: none in a correct program.
+    pub surprises: u64,
     /// Their visits and tests.
     pub work: Work,
 }
@@ -22,6 +24,7 @@ impl std::ops::AddAssign for Tally {
     fn add_assign(&mut self, other: Self) {
         self.rays += other.rays;
         self.hits += other.hits;
+        self.surprises += other.surprises;
         self.work += other.work;
     }
 }
@@ -87,6 +90,7 @@ fn count_testing(set: &RaySet, tree: &Tree, objects: &Objects, every: usize) -> 
                         *tally += Tally {
                             rays: 1,
                             hits: u64::from(hit),
+                            surprises: u64::from(hit != known),
                             work: own,
                         };
                     }

@@ -94,7 +94,7 @@ impl KindRays {
 
     /// No more rays of the current corner.
     pub(super) fn end_corner(&mut self) {
-        self.ends.push(self.rays.len() as u32);
+        self.ends.push(in_32_bits(self.rays.len()));
     }
 
     /// Rows put one after the other.
@@ -103,13 +103,22 @@ impl KindRays {
         all.rays
             .reserve_exact(rows.iter().map(|row| row.rays.len()).sum());
         for row in rows {
-            let before = all.rays.len() as u32;
-            all.ends.extend(row.ends.iter().map(|end| before + end));
+            let before = all.rays.len();
+            let ends = row
+                .ends
+                .iter()
+                .map(|&end| in_32_bits(before + end as usize));
+            all.ends.extend(ends);
             all.rays.extend(row.rays);
             all.hit.extend(row.hit);
         }
         all
     }
+}
+
+/// A number of rays; so many more would not fit into memory.
+fn in_32_bits(rays: usize) -> u32 {
+    u32::try_from(rays).expect("fewer than 2^32 rays of a kind")
 }
 
 /// All rays of a picture.

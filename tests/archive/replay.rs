@@ -154,7 +154,7 @@ fn replay_finds_forged_data() {
     // Another mesh is refused, before anything is counted.
     fs::write(folder.path().join("m.obj"), MESH.replace("0 0 1", "0 0 2")).unwrap();
     verify(&file, &["--replay"]).code(2).stderr(
-        contains("m.obj: its objects' boxes have the digest").and(contains("counting").not()),
+        contains("m.obj: its objects and look have the digest").and(contains("counting").not()),
     );
     fs::remove_file(folder.path().join("m.obj")).unwrap();
     verify(&file, &["--replay"])

@@ -88,6 +88,8 @@ fn add(run: &mut Strategies, scene: &str, stop: &str, strategy: &str, ratio: f64
             half_b_s: 1.01 * seconds,
             disturbed: false,
             load_average: None,
+            revision: String::new(),
+            pass_s: 0.1,
         });
     }
     run.cells.push(cell);

@@ -40,15 +40,14 @@ struct Shown<'r> {
 
 /// The gallery and a figure for each scene whose picture was kept.
 pub fn figures(run: &Strategies, summary: &Summary) -> Result<Vec<Named<Figure>>, ReportError> {
-    let file = |scene: &str, extension| {
-        run.pictures
-            .join(format!("{}.{extension}", file_stem(scene)))
-    };
+    // The costs kept are those of the first stop rule's tree.
+    let stop = run.cells.first().map_or("", |cell| &cell.stop);
+    let file = |name: &str| run.pictures.join(name);
     let scenes = distinct(run.cells.iter().map(|cell| cell.scene.as_str())).into_iter();
     let shown = scenes.map(|scene| Shown {
         scene,
-        render: file(scene, "ppm"),
-        costs: file(scene, "pfm"),
+        render: file(&format!("{}.ppm", file_stem(scene))),
+        costs: file(&format!("{}-{}.pfm", file_stem(scene), file_stem(stop))),
     });
     let mut pictures = Vec::new();
     let mut figures = Vec::new();

@@ -9,7 +9,7 @@ mod dots;
 mod findings;
 #[cfg(test)]
 pub(super) mod fixture;
-mod gallery;
+pub(super) mod gallery;
 mod greedy;
 mod havran;
 mod netpbm;

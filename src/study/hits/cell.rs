@@ -10,7 +10,7 @@ use crate::kd::{Counts, Prediction, Rules, Tree, build_objects, predict};
 use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
-use crate::study::identity::{content, digest, line_seed};
+use crate::study::identity::{content, digest, line_seed, whole};
 use crate::study::{LineRule, SCHEMA, Watcher};
 
 use super::findings::Found;
@@ -42,8 +42,13 @@ impl<'a> CellPlan<'a> {
     /// A cell, without nodes.
     pub fn new(scene: &'a Scene, rules: Rules, seed: u64, lines: LineRule) -> Self {
         let content = content(scene);
+        let shapes = if rules.clipped {
+            whole(scene)
+        } else {
+            String::new()
+        };
         let identity = format!(
-            "{SCHEMA} {} {content} {rules:?} seed {seed} {lines:?}",
+            "{SCHEMA} {} {content}{shapes} {rules:?} seed {seed} {lines:?}",
             scene.name
         );
         Self {

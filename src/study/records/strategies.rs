@@ -51,6 +51,8 @@ pub struct PassTiming {
     pub timed_units: u64,
     /// Times that each chunk, or the build, was timed.
     pub rounds: u64,
+    /// Seconds above which a pass was timed on a random sample.
+    pub pass_s: f64,
     /// Seconds for all units.
     pub seconds: f64,
     /// Standard error of `seconds` from the choice of the sample; 0 where all units were timed.
@@ -63,6 +65,8 @@ pub struct PassTiming {
     pub disturbed: bool,
     /// Load average of the machine when the scene was timed, where it is known.
     pub load_average: Option<f64>,
+    /// Stands for the program that was timed: its sources and locked dependencies.
+    pub revision: String,
 }
 
 /// A leaf that a plane across an axis cuts. A row of `slices.csv`. u and v are the two other axes in ascending order.

@@ -6,6 +6,7 @@ use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::records::file_stem;
 use crate::tracer::PIXELS;
 
 use super::slices::SliceOf;
@@ -34,6 +35,11 @@ pub struct Strategies {
     /// What is expected.
     pub expect: Expect,
 }
+
+/// Most pixels across: a ray takes 64 bytes, and an eye ray leads to up to a dozen.
+const MOST_PIXELS: u32 = 2048;
+/// Most rays held against brute force: each meets every object.
+const MOST_CHECKED: u32 = 1_000_000;
 
 /// How seconds are measured.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
@@ -69,8 +75,11 @@ impl Strategies {
                 format!("stop rule '{stop}' is named twice")
             })?;
         }
-        wrong_unless((1..=8192).contains(&self.pixels), "pixels", || {
-            format!("pixels = {}, but it must be 1 to 8192", self.pixels)
+        wrong_unless((1..=MOST_PIXELS).contains(&self.pixels), "pixels", || {
+            format!(
+                "pixels = {}, but it must be 1 to {MOST_PIXELS}",
+                self.pixels
+            )
         })?;
         let Timing {
             rounds,
@@ -96,9 +105,26 @@ impl Strategies {
                 )
             },
         )?;
-        wrong_unless(self.checked >= 1, "checked", || {
-            "checked = 0, but some eye rays must be held against brute force".into()
-        })?;
+        wrong_unless(
+            (1..=MOST_CHECKED).contains(&self.checked),
+            "checked",
+            || {
+                format!(
+                    "checked = {}, but it must be 1 to {MOST_CHECKED}",
+                    self.checked
+                )
+            },
+        )?;
+        let stems: Vec<String> = self
+            .stops
+            .iter()
+            .map(|s| file_stem(&s.to_string()))
+            .collect();
+        for (i, stem) in stems.iter().enumerate() {
+            wrong_unless(!stems[..i].contains(stem), "stops", || {
+                format!("two stop rules would both have files named '{stem}'")
+            })?;
+        }
         check_family(self.expect.family)?;
         if let Some(slice) = &self.slice {
             slice.check(scenes)?;

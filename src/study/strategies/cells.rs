@@ -1,16 +1,15 @@
 //! The trees of one scene: counted, checked and timed together, as they share the rays.
 
-use std::time::Instant;
-
 use rand::rngs::ChaCha8Rng;
 use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::kd::{Hit, Rules, Stack, StopRule, Strategy, Tree, nearest, predict};
+use crate::geom::Ray;
+use crate::kd::{Hit, Rules, Stack, StopRule, Strategy, Tree, nearest, occluded, predict};
 use crate::scene::{Look, Scene};
-use crate::study::hits::cell::{CellPlan, build_tree, compare, plant};
-use crate::study::identity::digest;
+use crate::study::hits::cell::{CellPlan, compare, plant};
+use crate::study::identity::{digest, whole};
 use crate::study::records::{CellRecord, PassTiming, RayRecord};
 use crate::study::store::{Store, StoreError, TIMINGS};
 use crate::study::{Plan, RunError, Watcher};
@@ -42,7 +41,7 @@ pub fn of_scene<'a>(plan: &Plan, asked: &Strategies, scene: &'a Scene) -> Vec<Tr
         return Vec::new();
     };
     // What the rays depend on besides the boxes.
-    let seen = digest(format!("{look:?} {:?}", scene.objects).as_bytes());
+    let seen = whole(scene);
     let rules = |stop: StopRule, strategy: Strategy| Rules {
         strategy,
         stop,
@@ -61,13 +60,27 @@ pub fn of_scene<'a>(plan: &Plan, asked: &Strategies, scene: &'a Scene) -> Vec<Tr
         .collect()
 }
 
-/// The finished trees of a scene, if all of them and their seconds are there: they are timed together or not at all.
-pub fn finished(store: &Store, cells: &[TreeCell], times: &[PassTiming]) -> Option<Vec<Studied>> {
-    let timed = |id: &str| times.iter().filter(|row| row.cell == id).count() == PASSES;
+/// The finished trees of a scene, if all of them, their pictures and their seconds are there: trees are timed together or
+/// not at all, and seconds count if they were measured as asked, by this very program.
+pub fn finished(
+    asked: &Strategies,
+    store: &Store,
+    cells: &[TreeCell],
+    times: &[PassTiming],
+) -> Option<Vec<Studied>> {
+    let as_asked = |row: &PassTiming| {
+        let same = timing::blank(asked.timing, row.what == timing::BUILD);
+        (row.rounds, row.pass_s, &row.revision) == (same.rounds, same.pass_s, &same.revision)
+    };
+    let timed = |id: &str| {
+        let own = times.iter().filter(|row| row.cell == id && as_asked(row));
+        own.count() == PASSES
+    };
+    let scene = cells.first()?.plan.scene;
     let one = |cell: &TreeCell| {
-        store
-            .finished(&cell.plan.id)
-            .filter(|_| timed(&cell.plan.id))
+        let CellPlan { id, rules, .. } = &cell.plan;
+        let drawn = pictures::are_there(store, asked, scene, rules);
+        store.finished(id).filter(|_| timed(id) && drawn)
     };
     cells.iter().map(one).collect()
 }
@@ -128,20 +141,19 @@ pub fn measure(
 
     let mut studied = Vec::new();
     let mut trees = Vec::new();
-    let mut builds = Vec::new();
     for cell in cells {
         let CellPlan { id, rules, .. } = &cell.plan;
         let place = format!("{} {} {}", scene.name, rules.strategy, rules.stop);
         watcher.begin(&place);
-        let (tree, build_s) = plant(scene, rules).map_err(bug(place.clone()))?;
-        builds.push(vec![build_s]);
-        let found = if let Some(found) = store.finished(id) {
+        let (tree, _) = plant(scene, rules).map_err(bug(place.clone()))?;
+        let drawn = pictures::are_there(store, asked, scene, rules);
+        let found = if let Some(found) = store.finished(id).filter(|_| drawn) {
             found
         } else {
             let (found, counts) =
                 count_tree(cell, &tree, &traced.rays, &probes).map_err(bug(place))?;
             if pictures::is_shown(asked, rules) {
-                pictures::write_cost(store, scene, plan.cost, &counts.corners)?;
+                pictures::write_cost(store, scene, rules, &counts.corners)?;
             }
             store.save(id, &found)?;
             found
@@ -153,13 +165,8 @@ pub fn measure(
     drop(tree);
 
     watcher.begin(&format!("{} times", scene.name));
-    for _ in 1..asked.timing.builds {
-        for (cell, seconds) in cells.iter().zip(&mut builds) {
-            let started = Instant::now();
-            drop(build_tree(scene, &cell.plan.rules));
-            seconds.push(started.elapsed().as_secs_f64());
-        }
-    }
+    let rules: Vec<Rules> = cells.iter().map(|cell| cell.plan.rules).collect();
+    let builds = timing::build_times(scene, &rules, asked.timing, plan.seed);
     let passes = timing::trace_times(scene, &trees, &traced.rays, asked.timing, plan.seed, || {
         watcher.done(cells.len() as u64);
     });
@@ -182,11 +189,10 @@ fn count_tree(
     let counts = count(rays, tree, &scene.objects);
     let row = |kind: RayKind| {
         let tally = counts.of(kind);
-        let made = rays.of(kind).hits();
-        if tally.hits != made {
+        if tally.surprises > 0 {
             return Err(format!(
-                "{} {kind} rays hit something, but {made} did when they were made",
-                tally.hits
+                "{} {kind} rays hit something and did not when they were made, or the other way round",
+                tally.surprises
             ));
         }
         Ok(RayRecord {
@@ -207,46 +213,60 @@ fn count_tree(
     Ok((Studied { record, rays }, counts))
 }
 
-/// Eye rays of random pixel corners with their nearest hits by brute force: over all objects, without a tree.
+/// Random rays with their hits by brute force: over all objects, without a tree. Of an eye ray or a secondary one the nearest
+/// hit, of a shadow ray whether there is any.
 struct Probes<'a> {
     scene: &'a Scene,
     rays: &'a RaySet,
-    /// Corners and hits.
-    hits: Vec<(usize, Option<Hit>)>,
+    answers: Vec<(RayKind, usize, Option<Hit>)>,
 }
+
+/// For one shadow or secondary ray held against brute force so many eye rays are.
+const EYE_RAYS: usize = 4;
 
 impl<'a> Probes<'a> {
     fn new(scene: &'a Scene, rays: &'a RaySet, number: u32, seed: u64) -> Self {
         let mut random = ChaCha8Rng::seed_from_u64(seed);
-        let corners: Vec<usize> = (0..number)
-            .map(|_| random.random_range(0..rays.corners() as u64) as usize)
-            .collect();
-        let hit = |corner: usize| {
-            let ray = rays.of(RayKind::Primary).rays[corner].ray();
+        let mut drawn = Vec::new();
+        for kind in RayKind::ALL {
+            let all = rays.of(kind).rays.len() as u64;
+            let number = match kind {
+                _ if all == 0 => 0,
+                RayKind::Primary => number as usize,
+                RayKind::Shadow | RayKind::Secondary => (number as usize).div_ceil(EYE_RAYS),
+            };
+            drawn.extend((0..number).map(|_| (kind, random.random_range(0..all) as usize)));
+        }
+        let nearest_of_all = |ray: &Ray| {
             (0..scene.bounds.len() as u32).fold(None, |best, object| {
-                match scene.objects.intersect(object, &ray) {
+                match scene.objects.intersect(object, ray) {
                     Some(t) => Hit::nearer(best, object, t),
                     None => best,
                 }
             })
         };
-        let hits = corners.into_par_iter().map(|corner| (corner, hit(corner)));
+        let answers = drawn.into_par_iter().map(|(kind, number)| {
+            let hit = nearest_of_all(&rays.of(kind).rays[number].ray());
+            (kind, number, hit)
+        });
         Self {
             scene,
             rays,
-            hits: hits.collect(),
+            answers: answers.collect(),
         }
     }
 
-    /// The tree finds the same objects at the same t, bit for bit.
+    /// The tree finds the same objects at the same t, bit for bit, and blocks the same shadow rays.
     fn check(&self, tree: &Tree) -> Result<(), String> {
         let mut stack = Stack::default();
-        for &(corner, hit) in &self.hits {
-            let ray = self.rays.of(RayKind::Primary).rays[corner].ray();
-            let found = nearest(tree, &self.scene.objects, &ray, &mut stack);
-            if found != hit {
+        for &(kind, number, hit) in &self.answers {
+            let ray = self.rays.of(kind).rays[number].ray();
+            let objects = &self.scene.objects;
+            let found = nearest(tree, objects, &ray, &mut stack);
+            let blocked = occluded(tree, objects, &ray, &mut stack);
+            if found != hit || blocked != hit.is_some() {
                 return Err(format!(
-                    "the eye ray of corner {corner} hits {found:?}, by brute force {hit:?}"
+                    "{kind} ray {number} hits {found:?} (any: {blocked}), by brute force {hit:?}"
                 ));
             }
         }
@@ -258,13 +278,13 @@ impl<'a> Probes<'a> {
 fn keep_times(
     store: &Store,
     cells: &[TreeCell],
-    builds: Vec<Vec<f64>>,
+    builds: Vec<PassTiming>,
     passes: Vec<Vec<PassTiming>>,
 ) -> Result<(), StoreError> {
     let mut rows: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     rows.retain(|row| cells.iter().all(|cell| cell.plan.id != row.cell));
     for ((cell, build), passes) in cells.iter().zip(builds).zip(passes) {
-        let all = std::iter::once(timing::build_row(&build)).chain(passes);
+        let all = std::iter::once(build).chain(passes);
         rows.extend(all.map(|row| PassTiming {
             cell: cell.plan.id.clone(),
             scene: cell.plan.scene.name.clone(),

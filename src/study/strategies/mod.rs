@@ -38,7 +38,7 @@ pub(super) fn run(
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     let found: Vec<_> = work
         .iter()
-        .map(|cells| cells::finished(store, cells, &times))
+        .map(|cells| cells::finished(asked, store, cells, &times))
         .collect();
     let already = found.iter().flatten().map(Vec::len).sum::<usize>();
     if already > 0 {

@@ -12,13 +12,17 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 
-use crate::kd::{NoProbe, Stack, Tree};
+use crate::kd::{NoProbe, Rules, Stack, Tree};
 use crate::scene::Scene;
+use crate::study::hits::cell::build_tree;
 use crate::study::records::PassTiming;
 use crate::tracer::count::hits;
-use crate::tracer::{RayKind, RaySet};
+use crate::tracer::{Cast, RayKind, RaySet};
 
 use super::asked::Timing;
+
+/// What a row of builds is called.
+pub const BUILD: &str = "build";
 
 /// Rays of a chunk: at about a microsecond each well below a scheduler's slice.
 const CHUNK: usize = 64;
@@ -74,10 +78,6 @@ pub fn trace_times(
         for &i in &order {
             let pass = &mut passes[i];
             let mut stack = Stack::default();
-            // Not timed: brings the tree's upper nodes into the cache.
-            if let Some(first) = pass.chunks.first() {
-                seconds(scene, &trees[pass.tree], rays, pass.kind, first, &mut stack);
-            }
             let best = &mut pass.best[round as usize % 2];
             for (chunk, best) in pass.chunks.iter().zip(best) {
                 let took = seconds(scene, &trees[pass.tree], rays, pass.kind, chunk, &mut stack);
@@ -86,14 +86,10 @@ pub fn trace_times(
         }
         tick();
     }
-    let load_average = load_average();
     let mut rows = vec![Vec::new(); trees.len()];
     for pass in passes {
         let all = rays.of(pass.kind).rays.len();
-        let mut row = pass.row(all);
-        row.rounds = timing.rounds.into();
-        row.load_average = load_average;
-        rows[pass.tree].push(row);
+        rows[pass.tree].push(pass.row(all, timing));
     }
     rows
 }
@@ -130,17 +126,22 @@ fn seconds(
     chunk: &Range<usize>,
     stack: &mut Stack,
 ) -> f64 {
-    let started = Instant::now();
-    for cast in &rays.of(kind).rays[chunk.clone()] {
+    let rays = &rays.of(kind).rays[chunk.clone()];
+    let mut trace = |cast: &Cast| {
         let ray = cast.ray();
         black_box(hits(kind, tree, &scene.objects, &ray, stack, NoProbe));
-    }
+    };
+    // One ray is not timed: it brings what its neighbours need into the cache, as the chunk before would have done, be it
+    // in the sample or not.
+    rays.first().iter().for_each(|cast| trace(cast));
+    let started = Instant::now();
+    rays.iter().for_each(trace);
     started.elapsed().as_secs_f64()
 }
 
 impl Pass {
     /// The row of this pass, the sample scaled to `all` rays.
-    fn row(&self, all: usize) -> PassTiming {
+    fn row(&self, all: usize, timing: Timing) -> PassTiming {
         let timed: usize = self.chunks.iter().map(ExactSizeIterator::len).sum();
         let scale = if timed == 0 {
             0.0
@@ -160,7 +161,7 @@ impl Pass {
             half_a_s,
             half_b_s,
             disturbed: apart(half_a_s, half_b_s),
-            ..blank()
+            ..blank(timing, false)
         }
     }
 
@@ -182,24 +183,41 @@ impl Pass {
     }
 }
 
+/// Time the building of every tree, on this thread, in rounds of a fresh random order. Gives rows without the name of their
+/// cell.
+pub fn build_times(scene: &Scene, rules: &[Rules], timing: Timing, seed: u64) -> Vec<PassTiming> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut order: Vec<_> = (0..rules.len()).collect();
+    let mut seconds = vec![Vec::new(); rules.len()];
+    for _ in 0..timing.builds {
+        order.shuffle(&mut random);
+        for &i in &order {
+            let started = Instant::now();
+            let tree = build_tree(scene, &rules[i]);
+            seconds[i].push(started.elapsed().as_secs_f64());
+            drop(tree);
+        }
+    }
+    let row = |seconds: &Vec<f64>| build_row(seconds, timing);
+    seconds.iter().map(row).collect()
+}
+
 /// The row of builds of one tree, from the seconds of each.
-pub fn build_row(seconds: &[f64]) -> PassTiming {
+fn build_row(seconds: &[f64], timing: Timing) -> PassTiming {
     let least = |from: usize| {
         let every_second = seconds.iter().skip(from).step_by(2);
         every_second.copied().fold(f64::INFINITY, f64::min)
     };
     let (half_a_s, half_b_s) = (least(0), least(1));
     PassTiming {
-        what: "build".into(),
+        what: BUILD.into(),
         units: 1,
         timed_units: 1,
-        rounds: seconds.len() as u64,
         seconds: half_a_s.min(half_b_s),
         half_a_s,
         half_b_s,
         disturbed: apart(half_a_s, half_b_s),
-        load_average: load_average(),
-        ..blank()
+        ..blank(timing, true)
     }
 }
 
@@ -207,8 +225,9 @@ fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > DISTURBED * a.min(b)
 }
 
-/// A row whose fields are all to be filled in.
-fn blank() -> PassTiming {
+/// A row that says how it was measured and nothing else.
+pub fn blank(timing: Timing, build: bool) -> PassTiming {
+    let rounds = if build { timing.builds } else { timing.rounds };
     PassTiming {
         cell: String::new(),
         scene: String::new(),
@@ -217,13 +236,15 @@ fn blank() -> PassTiming {
         what: String::new(),
         units: 0,
         timed_units: 0,
-        rounds: 0,
+        rounds: rounds.into(),
+        pass_s: timing.pass_s,
         seconds: 0.0,
         sampling_se_s: 0.0,
         half_a_s: 0.0,
         half_b_s: 0.0,
         disturbed: false,
-        load_average: None,
+        load_average: load_average(),
+        revision: crate::REVISION.into(),
     }
 }
 
@@ -237,6 +258,12 @@ fn load_average() -> Option<f64> {
 mod tests {
     use super::*;
 
+    const TIMING: Timing = Timing {
+        rounds: 2,
+        builds: 4,
+        pass_s: 1.0,
+    };
+
     fn pass(a: Vec<f64>, b: Vec<f64>) -> Pass {
         Pass {
             kind: RayKind::Primary,
@@ -248,20 +275,20 @@ mod tests {
 
     #[test]
     fn the_least_of_each_chunk_counts_and_is_scaled() {
-        let row = pass(vec![1.0, 5.0], vec![3.0, 2.0]).row(4 * CHUNK);
+        let row = pass(vec![1.0, 5.0], vec![3.0, 2.0]).row(4 * CHUNK, TIMING);
         assert_eq!((row.seconds, row.half_a_s, row.half_b_s), (6.0, 12.0, 10.0));
         assert!(row.disturbed);
         // Chunks of 1 and 2 seconds, two of four: N sqrt(s^2 (1 - 1/2) / 2) with s^2 = 1/2.
         assert!((row.sampling_se_s - 4.0 * 0.125_f64.sqrt()).abs() < 1e-12);
-        let whole = pass(vec![1.0, 2.0], vec![1.01, 2.02]).row(2 * CHUNK);
+        let whole = pass(vec![1.0, 2.0], vec![1.01, 2.02]).row(2 * CHUNK, TIMING);
         assert_eq!((whole.sampling_se_s, whole.disturbed), (0.0, false));
-        let none = pass(vec![], vec![]).row(0);
+        let none = pass(vec![], vec![]).row(0, TIMING);
         assert_eq!((none.seconds, none.disturbed), (0.0, false));
     }
 
     #[test]
     fn builds_have_halves() {
-        let row = build_row(&[2.0, 1.0, 1.5, 3.0]);
+        let row = build_row(&[2.0, 1.0, 1.5, 3.0], TIMING);
         assert_eq!((row.half_a_s, row.half_b_s, row.seconds), (1.5, 1.0, 1.0));
         assert!(row.disturbed);
     }

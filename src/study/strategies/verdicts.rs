@@ -34,8 +34,9 @@ fn brute_force(asked: &Strategies, cells: &[CellRecord]) -> Verdict {
         name: "brute-force".into(),
         held: true,
         message: format!(
-            "{} random eye rays of each of {} trees hit the same object at the same t, bit for bit, as without a tree; \
-             all rays of a scene hit equally often in all its trees",
+            "{} random eye rays of each of {} trees, and a quarter as many shadow and secondary rays each, hit the same object \
+             at the same t, bit for bit, as without a tree; every ray that hits something does so in \
+             all trees, and one in sixteen of the others, tested again, in none",
             asked.checked,
             cells.len()
         ),
