@@ -112,7 +112,7 @@ fn wrong_experiments_are_refused() {
             "e.toml:23:1",
             "512 pixels only",
         ),
-        ("pixels = 24", "pixels = 0", "e.toml:8:1", "1 to 8192"),
+        ("pixels = 24", "pixels = 0", "e.toml:8:1", "1 to 2048"),
         (
             "\"automatic\"]",
             "\"objects:2:16\"]",
