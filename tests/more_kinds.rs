@@ -8,7 +8,7 @@ use std::path::Path;
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
-use sahlab::study::records::{MedianRecord, OctreeRecord, SliceRecord};
+use sahlab::study::records::{CurveNodeRecord, MedianRecord, OctreeRecord, SliceRecord};
 use serde::de::DeserializeOwned;
 
 const TERMINATION: &str = r#"kind = "termination"
@@ -150,6 +150,15 @@ fn split_cost_finds_minima_and_medians() {
             .iter()
             .all(|r| r.kd_inner_nodes == 7 * r.octree_inner_nodes)
     );
+}
+
+#[test]
+fn ranks_beyond_the_tree_are_told() {
+    let folder = folder(&SPLIT_COST.replace("rank = 2", "rank = 100000"));
+    let told = contains("simple:soup:300 has only").and(contains("rank 100000 is not drawn"));
+    validate(folder.path()).assert().code(0).stderr(told);
+    let drawn: Vec<CurveNodeRecord> = rows(folder.path(), "curve-nodes.csv");
+    assert!(drawn.iter().all(|r| r.scene == "spd:tree:5" && r.rank == 1));
 }
 
 #[test]

@@ -1,5 +1,7 @@
 //! The split cost across one node, f(b) = LSA(b) L(b) + RSA(b) R(b), for a look at where its minimum lies.
 
+use std::ops::RangeInclusive;
+
 use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis};
 
@@ -17,6 +19,8 @@ const TESTS: CostModel = CostModel {
 /// The split cost on one axis of one node.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SplitCurve {
+    /// Where the node begins and ends.
+    pub ends: [f64; 2],
     /// Middle of the node, b_rm.
     pub spatial_median: f64,
     /// Median of the centres of the objects' boxes clipped to the node, b_om; `None` without objects.
@@ -45,14 +49,17 @@ pub struct CurvePoint {
 }
 
 impl SplitCurve {
-    /// Whether the minimum lies between the medians, both included; `None` without a minimum.
-    pub fn minimum_is_between_medians(&self) -> Option<bool> {
-        let (minimum, object) = (self.minimum?.position, self.object_median?);
-        let (a, b) = (
-            self.spatial_median.min(object),
-            self.spatial_median.max(object),
-        );
-        Some((a..=b).contains(&minimum))
+    /// From one median to the other, both included; `None` without objects.
+    pub fn medians(&self) -> Option<RangeInclusive<f64>> {
+        let (spatial, object) = (self.spatial_median, self.object_median?);
+        Some(spatial.min(object)..=spatial.max(object))
+    }
+
+    /// The points strictly inside the node: planes that part it. A plane in one of its faces is never taken.
+    pub fn inside(&self) -> impl Iterator<Item = &CurvePoint> {
+        let [lo, hi] = self.ends;
+        let inside = move |p: &&CurvePoint| lo < p.position && p.position < hi;
+        self.points.iter().filter(inside)
     }
 }
 
@@ -111,7 +118,8 @@ pub fn split_curve(
             f_centres: by_centres.cost,
         })
     };
-    let whole = Some((node.lo[axis], node.hi[axis]));
+    let ends = [node.lo[axis], node.hi[axis]];
+    let whole = Some((ends[0], ends[1]));
     let mut extra = [asked, &samples].concat();
     extra.sort_unstable_by(f64::total_cmp);
     extra.dedup();
@@ -122,6 +130,7 @@ pub fn split_curve(
     let least = sweep.cheapest(whole, &[]).map(|split| split.position);
     let minimum = points.iter().find(|p| Some(p.position) == least).copied();
     SplitCurve {
+        ends,
         spatial_median,
         object_median,
         samples,

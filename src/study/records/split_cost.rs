@@ -21,7 +21,7 @@ pub struct CurveNodeRecord {
     pub objects: u64,
     /// Object median b_om; the spatial one is at 1/2.
     pub object_median: f64,
-    /// Where f is least.
+    /// Where f is least of all planes strictly inside the node.
     pub minimum: f64,
     /// Least f.
     pub minimum_f: f64,
@@ -68,7 +68,7 @@ pub struct MedianRecord {
     pub objects_hi: Option<u64>,
     /// Nodes.
     pub nodes: u64,
-    /// Nodes whose least f lies between the medians, both included.
+    /// Nodes whose least f, of all planes strictly inside, lies between the medians, both included.
     pub between: u64,
     /// The same where each object counts once, by its centre.
     pub between_centres: u64,

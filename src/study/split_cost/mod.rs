@@ -81,7 +81,7 @@ pub(super) fn run(
             continue;
         }
         watcher.begin(&scene.name);
-        let found = measure(plan, asked, scene).map_err(|fault| RunError::Bug {
+        let found = measure(plan, asked, scene, watcher).map_err(|fault| RunError::Bug {
             place: scene.name.clone(),
             fault,
         })?;
@@ -93,7 +93,12 @@ pub(super) fn run(
     Ok(())
 }
 
-fn measure(plan: &Plan, asked: &SplitCost, scene: &Scene) -> Result<Found, String> {
+fn measure(
+    plan: &Plan,
+    asked: &SplitCost,
+    scene: &Scene,
+    watcher: &impl Watcher,
+) -> Result<Found, String> {
     let rules = Rules {
         strategy: Strategy::Sah,
         stop: asked.stop,
@@ -101,7 +106,15 @@ fn measure(plan: &Plan, asked: &SplitCost, scene: &Scene) -> Result<Found, Strin
         clipped: false,
     };
     let (tree, _) = plant(scene, &rules)?;
-    let at = nodes::look(scene, &tree, asked, &ranks(asked, scene));
+    let ranks = ranks(asked, scene);
+    let inner = tree.inner_nodes();
+    for rank in ranks.iter().filter(|&&rank| rank as usize > inner) {
+        let name = &scene.name;
+        watcher.note(&format!(
+            "{name} has only {inner} inner nodes; rank {rank} is not drawn"
+        ));
+    }
+    let at = nodes::look(scene, &tree, asked, &ranks);
     let octree = asked
         .octree
         .map(|octree| octree::compare(scene, octree, plan.cost, plan.seed))

@@ -76,7 +76,7 @@ pub fn look(scene: &Scene, tree: &Tree, asked: &SplitCost, ranks: &[u32]) -> AtN
     }
 }
 
-/// The numbers of the inner nodes of these ranks by area; ranks beyond the last are left out.
+/// The numbers of the inner nodes of these ranks by area; ranks beyond the last, of which the user is told, are left out.
 fn by_rank(tree: &Tree, ranks: &[u32]) -> Vec<(u32, u32)> {
     let mut inner: Vec<usize> = (0..tree.nodes.len())
         .filter(|&i| !tree.nodes[i].is_leaf())
@@ -87,7 +87,7 @@ fn by_rank(tree: &Tree, ranks: &[u32]) -> Vec<(u32, u32)> {
     ranks.iter().filter_map(number).collect()
 }
 
-/// What one node shows on one axis.
+/// What one node shows on one axis, of planes strictly inside it.
 struct Seen {
     axis: Axis,
     objects: u64,
@@ -115,21 +115,19 @@ const ROUNDING: f64 = 1e-12;
 
 impl Seen {
     fn new(curve: &SplitCurve, axis: Axis, objects: u64) -> Option<Self> {
-        let object = curve.object_median?;
-        let spatial = curve.spatial_median;
-        let medians = spatial.min(object)..=spatial.max(object);
+        let medians = curve.medians()?;
         let least = |value: fn(&CurvePoint) -> f64, taken: &dyn Fn(f64) -> bool| {
-            let taken = curve.points.iter().filter(|p| taken(p.position));
+            let taken = curve.inside().filter(|p| taken(p.position));
             taken.map(value).min_by(f64::total_cmp)
         };
         let f = |p: &CurvePoint| p.f;
         let by_centres = |p: &CurvePoint| p.f_centres;
         let (best, best_centres) = (least(f, &|_| true)?, least(by_centres, &|_| true)?);
         let excess = |found: Option<f64>| found.map_or(f64::INFINITY, |found| found / best - 1.0);
-        let inside = |s: f64| medians.contains(&s);
-        let between_excess = excess(least(f, &inside));
+        let between = |s: f64| medians.contains(&s);
+        let between_excess = excess(least(f, &between));
         let centres_excess =
-            least(by_centres, &inside).map_or(f64::INFINITY, |found| found / best_centres - 1.0);
+            least(by_centres, &between).map_or(f64::INFINITY, |found| found / best_centres - 1.0);
         Some(Self {
             axis,
             objects,
@@ -144,7 +142,7 @@ impl Seen {
 
 /// How far apart the costs of the medians are.
 fn apart(curve: &SplitCurve, n: usize) -> Option<(f64, Theory)> {
-    let at = |s: f64| curve.points.iter().find(|p| p.position == s);
+    let at = |s: f64| curve.inside().find(|p| p.position == s);
     let (spatial, object) = (at(curve.spatial_median)?, at(curve.object_median?)?);
     let straddlers = |p: &CurvePoint| p.left + p.right - n;
     let theory = if straddlers(spatial) + straddlers(object) > 0 {
@@ -244,8 +242,7 @@ impl Place<'_> {
         (node, depth): (u32, u32),
         n: usize,
     ) -> Option<CurveNodeRecord> {
-        let points = curve.points.iter();
-        let least = points.min_by(|a, b| a.f.total_cmp(&b.f))?;
+        let least = curve.inside().min_by(|a, b| a.f.total_cmp(&b.f))?;
         Some(CurveNodeRecord {
             scene: self.scene.into(),
             rank: self.rank.into(),
@@ -281,6 +278,8 @@ impl Place<'_> {
 
 #[cfg(test)]
 mod tests {
+    use glam::DVec3;
+
     use super::*;
 
     /// Boxes in the unit cube, from lo to hi on x.
@@ -289,12 +288,16 @@ mod tests {
         spans.iter().map(slab).collect()
     }
 
-    fn seen(spans: &[(f64, f64)]) -> Seen {
-        let cube = Aabb::new([0.0; 3].into(), [1.0; 3].into());
+    const CUBE: Aabb = Aabb::new(DVec3::ZERO, DVec3::ONE);
+
+    fn curve(spans: &[(f64, f64)]) -> SplitCurve {
         let slabs = slabs(spans);
         let centres: Vec<f64> = slabs.iter().map(|b| b.centre().x).collect();
-        let curve = split_curve(&slabs, &cube, 0, 3, &centres);
-        Seen::new(&curve, 0, spans.len() as u64).expect("objects")
+        split_curve(&slabs, &CUBE, 0, 3, &centres)
+    }
+
+    fn seen(spans: &[(f64, f64)]) -> Seen {
+        Seen::new(&curve(spans), 0, spans.len() as u64).expect("objects")
     }
 
     #[test]
@@ -321,6 +324,28 @@ mod tests {
         let excess = crossed.between_excess;
         assert!((excess - expected).abs() < 1e-12, "{excess} {expected}");
         assert!(seen(&[(0.0, 0.1), (0.1, 0.2), (0.3, 0.4), (0.8, 0.9)]).between);
+    }
+
+    #[test]
+    fn planes_in_the_faces_are_no_minimum() {
+        // A flat object in the node's face at 0, cut off there at 1/3 + 1 tests; f = (1 + 2b) 2/3 + (3 - 2b)/3 inside.
+        let spans = [(0.0, 0.0), (0.0, 1.0)];
+        let curve = curve(&spans);
+        assert_eq!(curve.points[0].position, 0.0);
+        assert!((curve.points[0].f - 4.0 / 3.0).abs() < 1e-12);
+        let found = seen(&spans);
+        assert!(found.between && found.between_centres);
+        assert_eq!((found.between_excess, found.samples_excess), (0.0, 0.0));
+        let place = Place {
+            scene: "x",
+            rank: 1,
+            cell: &CUBE,
+            axis: 0,
+        };
+        // The object median, (0 + 1/2)/2.
+        let drawn = place.node(&curve, (0, 0), 2).expect("planes inside");
+        assert_eq!(drawn.minimum, 0.25);
+        assert!((drawn.minimum_f - 11.0 / 6.0).abs() < 1e-12);
     }
 
     #[test]
