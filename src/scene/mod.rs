@@ -58,7 +58,7 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// Checks the objects and computes their boxes; adds a note on objects without area to `notes`.
+    /// Checks the objects and their boxes; adds a note on objects without area to `notes`.
     pub fn new(
         name: impl Into<String>,
         objects: Objects,
@@ -77,6 +77,14 @@ impl Scene {
         }
         check(&name, &objects)?;
         let bounds = objects.bounds();
+        if let Some(number) = bounds.iter().position(|b| !b.is_valid()) {
+            return Err(SceneError::Object {
+                name,
+                object: kind_and_number(&objects, number),
+                wrong: "is so small or so large that its box cannot be computed",
+                right: "squares of its lengths must be numbers that f64 has: scale the scene",
+            });
+        }
         let world = bounds.iter().copied().fold(Aabb::EMPTY, Aabb::union);
         let area = world.surface_area();
         if !AREAS.contains(&area) {
@@ -231,6 +239,22 @@ fn check(name: &str, objects: &Objects) -> Result<(), SceneError> {
         }
     }
     Ok(())
+}
+
+/// An object by its kind and its number among those of the kind, e.g. `cone 0`.
+fn kind_and_number(objects: &Objects, number: usize) -> String {
+    let mut number = number;
+    for (count, kind) in [
+        (objects.triangles.len(), "triangle"),
+        (objects.spheres.len(), "sphere"),
+        (objects.cones.len(), "cone"),
+    ] {
+        if number < count {
+            return format!("{kind} {number}");
+        }
+        number -= count;
+    }
+    format!("polygon {number}")
 }
 
 /// A note on triangles and polygons without area, if there are any.

@@ -233,8 +233,12 @@ fn faults() {
         pp 3\n0 0 0 0 0 1\n1 0 0 0 0 | :4 | ends within a record   | a corner and its normal
         v from 0 0 0 up          | :2 | 'up' stands where 'at'     | from X Y Z, at X Y Z
         v from 0 0 0 at 0 0 1 up 0 0 2 angle 9 hither 0 resolution 1 1 | :2 | 'up' points along the view | span a plane
+        v from 1e200 0 0 at 0 0 1 up 0 1 0 angle 9 hither 0 resolution 1 1 | :2 | too large or too small | numbers that f64 has
+        v from 0 0 0 at 0 0 1e-170 up 0 1 0 angle 9 hither 0 resolution 1 1 | :2 | too large or too small | numbers that f64 has
         v from 0 0 0 at 0 0 1 up 0 1 0 angle 180 hither 0 resolution 1 1 | :2 | angle of view is 180 | between 0 and 180
         v from 0 0 0 at 0 0 1 up 0 1 0 angle 9 hither 0 resolution 1 .5 | :2 | '.5' is not a number of pixels | from 1
+        c 0 0 0 1 1e-170 0 0 1   |    | cone 0 is so small or so large | scale the scene
+        s 0 0 0 1 s 1e308 0 0 1e308 | | sphere 1 is so small or so large | scale the scene
                                  |    | the scene is empty         | at least one face
     ";
     bad_table("a.nff", "# first\n", records);

@@ -244,10 +244,21 @@ fn check_view(view: &View) -> Result<(), Fault> {
             "it lies between 0 and 180 degrees",
         ));
     }
-    if (view.at - view.from).cross(view.up) == DVec3::ZERO {
+    let forward = view.at - view.from;
+    let across = forward.cross(view.up);
+    if across == DVec3::ZERO {
         return Err(Fault::new(
             "'up' points along the view, or 'from' and 'at' coincide",
             "the eye, the point looked at and 'up' must span a plane",
+        ));
+    }
+    let has_length = |v: DVec3| v.length_squared().is_normal();
+    let near = |v: DVec3| v.length_squared().is_finite();
+    let lengths = [forward, view.up, across].into_iter().all(has_length);
+    if !(lengths && near(view.from) && near(view.at)) {
+        return Err(Fault::new(
+            "the view's coordinates are too large or too small",
+            "squares of its lengths must be numbers that f64 has",
         ));
     }
     Ok(())
