@@ -36,8 +36,8 @@ mod termination;
 mod tests;
 mod text;
 
-use std::io;
 use std::path::{Path, PathBuf};
+use std::{fs, io};
 
 use crate::files::write_atomic;
 
@@ -52,6 +52,9 @@ pub use termination::Termination;
 
 /// Resolution of the PNG files, in dots per inch.
 const DOTS_PER_INCH: f64 = 216.0;
+
+/// Name of the figure that `validate scene` draws from the scene itself, beside those of its run.
+pub const RENDER: &str = "render";
 
 /// Why a run could not be read or reported.
 #[derive(Debug, thiserror::Error)]
@@ -110,6 +113,14 @@ pub enum ReportError {
         /// Why.
         source: png::EncodingError,
     },
+    /// A file of an earlier run cannot be removed.
+    #[error("{path}: cannot remove what an earlier run wrote", path = path.display())]
+    Remove {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
     /// A file cannot be written.
     #[error("{path}: cannot write", path = path.display())]
     Write {
@@ -121,6 +132,9 @@ pub enum ReportError {
 }
 
 /// Draws every figure of a run into `out`, as SVG and PNG; gives the files in the order written.
+///
+/// Other SVG and PNG files there, of an earlier form of the run, are removed, but for [`RENDER`] and but in the run's own
+/// data directory.
 pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let figures = match &run.content {
         Content::Hits(hits) => named(hits.figures(&run.summary)?),
@@ -131,6 +145,9 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
     let mut files = Vec::new();
     for (name, figure) in figures {
         files.extend(write_figure(out, &name, &figure)?);
+    }
+    if !holds_data(run, out) {
+        remove_others(out, &["svg", "png"], &files)?;
     }
     Ok(files)
 }
@@ -152,11 +169,12 @@ pub fn write_figure(out: &Path, name: &str, figure: &Figure) -> Result<[PathBuf;
 /// Writes every table of a run into `out`, as Markdown, LaTeX and CSV, and its findings in words as Markdown; gives the
 /// files in the order written.
 ///
-/// They name the command of the run as what made them, so that the same run gives the same bytes however often they are
+/// Other files of these kinds there, of an earlier form of the run, are removed.
+///
+/// The tables name the command of the run as what made them, so that the same run gives the same bytes however often they are
 /// written.
 pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    let same = |a: &Path, b: &Path| matches!((a.canonicalize(), b.canonicalize()), (Ok(a), Ok(b)) if a == b);
-    if same(&run.dir, out) {
+    if holds_data(run, out) {
         return Err(ReportError::Overwrite {
             path: out.to_owned(),
         });
@@ -187,7 +205,38 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
             files.push(path);
         }
     }
+    remove_others(out, &["md", "tex", "csv"], &files)?;
     Ok(files)
+}
+
+/// Whether this is the directory that the run was read from.
+fn holds_data(run: &Run, out: &Path) -> bool {
+    let pair = (run.dir.canonicalize(), out.canonicalize());
+    matches!(pair, (Ok(data), Ok(out)) if data == out)
+}
+
+/// Removes the files with these extensions in `out` that are not among those written: they would pass for this run's.
+fn remove_others(out: &Path, extensions: &[&str], written: &[PathBuf]) -> Result<(), ReportError> {
+    let unread = |source| ReportError::Read {
+        path: out.to_owned(),
+        source,
+    };
+    let entries = match fs::read_dir(out) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries.map_err(unread)?,
+    };
+    for entry in entries {
+        let entry = entry.map_err(unread)?;
+        let path = entry.path();
+        let reported = path
+            .extension()
+            .is_some_and(|own| extensions.iter().any(|&e| own == e));
+        let kept = path.file_stem().is_some_and(|stem| stem == RENDER) || written.contains(&path);
+        if reported && !kept && entry.file_type().map_err(unread)?.is_file() {
+            fs::remove_file(&path).map_err(|source| ReportError::Remove { path, source })?;
+        }
+    }
+    Ok(())
 }
 
 /// Names of files that are known beforehand.

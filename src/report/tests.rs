@@ -246,6 +246,41 @@ fn tables_written_again_are_the_same() {
 }
 
 #[test]
+fn what_an_earlier_plan_left_is_removed() {
+    let dir = tempfile::tempdir().unwrap();
+    save(dir.path(), &cells(2, 2), None);
+    let run = read_run(dir.path()).unwrap();
+    let [tables, plots] = ["tables", "plots"].map(|part| dir.path().join(part));
+    write_tables(&run, &tables).unwrap();
+    write_plots(&run, &plots).unwrap();
+    let before = [names(&tables), names(&plots)];
+    for stale in ["costs-automatic.md", "costs-automatic.tex", "old.csv"] {
+        fs::write(tables.join(stale), "old").unwrap();
+    }
+    for stale in ["old.svg", "old.png", "render-old.png"] {
+        fs::write(plots.join(stale), "old").unwrap();
+    }
+    write_tables(&run, &tables).unwrap();
+    write_plots(&run, &plots).unwrap();
+    assert_eq!([names(&tables), names(&plots)], before);
+    // Not of this module: the traced picture, other kinds of files, folders.
+    fs::write(tables.join("notes.txt"), "mine").unwrap();
+    for kept in ["render.svg", "render.png", "notes.md"] {
+        fs::write(plots.join(kept), "mine").unwrap();
+    }
+    fs::create_dir(plots.join("folder.png")).unwrap();
+    write_tables(&run, &tables).unwrap();
+    write_plots(&run, &plots).unwrap();
+    assert_eq!(names(&tables).len(), before[0].len() + 1);
+    assert_eq!(names(&plots).len(), before[1].len() + 4);
+    // Figures may be drawn beside the data, of which nothing is removed.
+    fs::write(dir.path().join("photo.png"), "mine").unwrap();
+    let data = names(dir.path());
+    let drawn = write_plots(&run, dir.path()).unwrap().len();
+    assert_eq!(names(dir.path()).len(), data.len() + drawn);
+}
+
+#[test]
 fn a_quick_run_marks_its_figures() {
     let lines = caption_lines("A caption.".to_owned(), 500.0, true);
     assert_eq!(lines, ["A caption. Quick form: not for publication."]);

@@ -6,7 +6,7 @@ use std::path::Path;
 use anyhow::Result;
 use sahlab::kd::Rules;
 use sahlab::report::render::{Render, figure};
-use sahlab::report::{Bitmap, write_figure};
+use sahlab::report::{Bitmap, RENDER, write_figure};
 use sahlab::scene::{Look, Scene};
 use sahlab::study::hits::cell::build_tree;
 use sahlab::tracer::{PIXELS, RayKind, count, trace};
@@ -42,6 +42,6 @@ pub fn render(scene: &Scene, look: &Look, rules: &Rules, quick: bool, plots: &Pa
         tree: format!("tree of strategy {}, stop {}", rules.strategy, rules.stop),
         quick,
     };
-    write_figure(plots, "render", &figure(&render))?;
+    write_figure(plots, RENDER, &figure(&render))?;
     Ok(())
 }
