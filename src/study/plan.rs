@@ -3,25 +3,34 @@
 //! Every kind of experiment has the same head (question, seed, scenes, costs) and keys of its own. `[quick]` holds keys that
 //! take the place of those outside when the quick form is asked for.
 
-use std::collections::HashSet;
-use std::fs;
-use std::path::{Path, PathBuf};
+mod error;
+mod overrides;
+mod table;
 
+use std::collections::{HashMap, HashSet};
+use std::fs;
+use std::path::Path;
+
+use serde::Deserialize;
 use serde::de::DeserializeOwned;
-use serde::{Deserialize, Serialize};
-use thiserror::Error;
 use toml::Spanned;
-use toml::de::{DeTable, DeValue, Deserializer};
+use toml::de::{DeTable, Deserializer};
 
 use crate::cost::CostModel;
 use crate::kd::Strategy;
 
 use super::hits::HitsVsArea;
 use super::record::Record;
-use super::records::Summary;
+use super::records::{Summary, file_stem};
 use super::split_cost::SplitCost;
 use super::strategies::Strategies;
 use super::{LEVEL, LineRule, SCHEMA};
+
+use error::Fault;
+pub(super) use error::wrong_unless;
+pub use error::{PlanError, Wrong};
+pub use overrides::Overrides;
+use table::{overlay, place};
 
 /// What an experiment asks for.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,76 +91,6 @@ impl Kind {
     }
 }
 
-/// A value that makes no sense.
-#[derive(Clone, Debug, PartialEq, Error)]
-#[error("{message}")]
-pub struct Wrong {
-    /// Its key in the file, with dots between tables and keys.
-    pub key: &'static str,
-    /// What is wrong, and what would be right.
-    pub message: String,
-}
-
-/// An error for this key, unless it is right.
-pub(super) fn wrong_unless(
-    right: bool,
-    key: &'static str,
-    message: impl FnOnce() -> String,
-) -> Result<(), Wrong> {
-    if right {
-        return Ok(());
-    }
-    let message = message();
-    Err(Wrong { key, message })
-}
-
-/// Why an experiment cannot be run.
-#[derive(Debug, Error)]
-pub enum PlanError {
-    /// The file cannot be read.
-    #[error("{path}: cannot read the experiment", path = path.display())]
-    Read {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        source: std::io::Error,
-    },
-    /// The file is not what an experiment looks like.
-    #[error("{path}:{line}:{column}: {message}")]
-    Syntax {
-        /// The file.
-        path: String,
-        /// Line, from 1.
-        line: usize,
-        /// Column, from 1.
-        column: usize,
-        /// What is wrong, and what would be right.
-        message: String,
-    },
-    /// A value that stands nowhere in the file makes no sense.
-    #[error("{path}: {message}")]
-    Value {
-        /// The file, or the option of the command line.
-        path: String,
-        /// What is wrong, and what would be right.
-        message: String,
-    },
-}
-
-impl PlanError {
-    /// A fault at a byte of a file's text.
-    pub(super) fn at(text: &str, path: &str, offset: usize, message: String) -> Self {
-        let before = &text[..offset.min(text.len())];
-        let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Self::Syntax {
-            path: path.into(),
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-            message,
-        }
-    }
-}
-
 /// Names of folders that are no run's under `data/`.
 const RESERVED: [&str; 3] = ["published", "reference", "bench"];
 
@@ -172,44 +111,6 @@ struct Head {
     seed: u64,
     scenes: Vec<String>,
     cost: CostModel,
-}
-
-/// What the command line may change.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Overrides {
-    /// Another seed.
-    pub seed: Option<u64>,
-    /// Exactly so many lines a cell.
-    pub lines: Option<u64>,
-    /// The quick form.
-    pub quick: bool,
-}
-
-impl Overrides {
-    /// These, and where they are silent, others.
-    pub fn or(self, others: Self) -> Self {
-        Self {
-            seed: self.seed.or(others.seed),
-            lines: self.lines.or(others.lines),
-            quick: self.quick || others.quick,
-        }
-    }
-
-    /// As arguments of the command line, each with a space before it.
-    pub fn arguments(&self) -> String {
-        let mut text = String::new();
-        if self.quick {
-            text += " --quick";
-        }
-        if let Some(seed) = self.seed {
-            text += &format!(" --seed {seed}");
-        }
-        if let Some(lines) = self.lines {
-            text += &format!(" --lines {lines}");
-        }
-        text
-    }
 }
 
 impl Plan {
@@ -244,12 +145,14 @@ impl Plan {
         let quick = table.get_mut().remove("quick");
         if overrides.quick && quick.is_none() {
             return Err(value(
-                "--quick needs a section [quick] that says the smaller form: scenes, lines, figure and expect, each as                  outside of it",
+                "--quick needs a section [quick] that says the smaller form: scenes, lines, figure and expect, each as \
+                 outside of it",
             ));
         }
         if !is_folder_name(name) || RESERVED.iter().any(|r| r.eq_ignore_ascii_case(name)) {
             return Err(value(&format!(
-                "'{name}' cannot name the folders of a run; the file's name must have letters, digits, '-', '_' and '.'                  only, not start with '.', and not be one of {}",
+                "'{name}' cannot name the folders of a run; the file's name must have letters, digits, '-', '_' and '.' \
+                 only, not start with '.', and not be one of {}",
                 RESERVED.join(", ")
             )));
         }
@@ -343,6 +246,18 @@ impl Plan {
                 format!("scene '{scene}' is named twice")
             })?;
         }
+        let mut stems = HashMap::new();
+        for scene in &self.scenes {
+            let other = stems.insert(file_stem(scene), scene);
+            wrong_unless(other.is_none(), "scenes", || {
+                format!(
+                    "scenes '{}' and '{scene}' would share the files '{}'; names of scenes must differ in their letters and \
+                     digits or in where others part them",
+                    other.map_or("", String::as_str),
+                    file_stem(scene)
+                )
+            })?;
+        }
         let CostModel { c_k, c_b, c_t } = self.cost;
         let possible = [c_k, c_b, c_t]
             .iter()
@@ -425,36 +340,6 @@ impl Plan {
     }
 }
 
-/// What is wrong with a table.
-enum Fault {
-    Toml(toml::de::Error),
-    Value(Wrong),
-    At(usize, String),
-}
-
-impl From<toml::de::Error> for Fault {
-    fn from(error: toml::de::Error) -> Self {
-        Self::Toml(error)
-    }
-}
-
-/// A table with the entries of another in place of its own of the same name; the error is the place of what is no table.
-fn overlay<'i>(
-    table: &Spanned<DeTable<'i>>,
-    quick: Spanned<DeValue<'i>>,
-) -> Result<Spanned<DeTable<'i>>, usize> {
-    let start = quick.span().start;
-    let DeValue::Table(entries) = quick.into_inner() else {
-        return Err(start);
-    };
-    let mut table = table.clone();
-    for (key, value) in entries {
-        table.get_mut().remove(key.get_ref().as_ref());
-        table.get_mut().insert(key, value);
-    }
-    Ok(table)
-}
-
 /// At least one strategy, none twice.
 pub(super) fn check_strategies(strategies: &[Strategy]) -> Result<(), Wrong> {
     wrong_unless(!strategies.is_empty(), "strategies", || {
@@ -472,75 +357,9 @@ pub(super) fn check_strategies(strategies: &[Strategy]) -> Result<(), Wrong> {
 /// Costs above this could leave f64 in a sum.
 const MOST_COST: f64 = 1e100;
 
-/// Where a key stands, with dots between tables and keys; if not itself, then its table.
-fn place(table: &DeTable, key: &str) -> Option<usize> {
-    let mut outside = Some(table);
-    let mut found = None;
-    for part in key.split('.') {
-        let Some((key, value)) = outside.and_then(|table| table.get_key_value(part)) else {
-            break;
-        };
-        found = Some(key.span().start);
-        outside = value.get_ref().as_table();
-    }
-    found
-}
-
 pub(super) fn one_line(message: &str) -> String {
     message.split_whitespace().collect::<Vec<_>>().join(" ")
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    const FILE: &str = include_str!("../../experiments/figure3.toml");
-
-    #[test]
-    fn the_command_repeats_the_run() {
-        let command = |seed, lines, quick| {
-            let overrides = Overrides { seed, lines, quick };
-            let plan = Plan::parse(FILE, "x.toml", "x", overrides).expect("a plan");
-            (plan.name, plan.command)
-        };
-        assert_eq!(
-            command(None, None, false),
-            ("x".into(), "validate run x.toml".into())
-        );
-        assert_eq!(
-            command(Some(7), Some(4096), true),
-            (
-                "x-quick".into(),
-                "validate run x.toml --quick --seed 7 --lines 4096".into()
-            )
-        );
-    }
-
-    #[test]
-    fn wrong_values_are_found_where_they_stand() {
-        let error = |old: &str, new: &str| {
-            assert!(FILE.contains(old), "{old}");
-            let text = FILE.replacen(old, new, 1);
-            let line = 1 + text[..text.find(new).expect("new")].matches('\n').count();
-            let error = Plan::parse(&text, "x.toml", "x", Overrides::default());
-            let error = error.expect_err(new).to_string();
-            assert!(error.starts_with(&format!("x.toml:{line}:")), "{error}");
-        };
-        error("family = 0.01 ", "family = 1e-13 ");
-        error("gate = 0.001 ", "gate = 1.0 ");
-        error("accepted_above = 1e-4", "accepted_above = -1.0");
-        error("slope_error = 0.002", "slope_error = 2.0");
-        error("max = 16_777_216", "max = 16");
-        error("question = ", "question = \"\" # ");
-    }
-
-    #[test]
-    fn names_of_folders() {
-        for name in ["validate", "figure3-quick", "a_b.c"] {
-            assert!(is_folder_name(name), "{name}");
-        }
-        for name in ["", ".", "..", ".git", "a/b", "a\\b", "a b", "a:b"] {
-            assert!(!is_folder_name(name), "{name}");
-        }
-    }
-}
+mod tests;
