@@ -1,4 +1,5 @@
-//! What made an archive: facts of the program and the machine; no name of a host or a user, no path.
+//! What made an archive: facts of the program, the compiler and the machine that packs it, which need not be the one that ran;
+//! no name of a host or a user, no path.
 
 use std::thread::available_parallelism;
 
@@ -13,7 +14,7 @@ struct Environment {
     target: &'static str,
     os: &'static str,
     processor: Option<String>,
-    /// That the machine runs at once; how many a run used is in its `timings.csv`.
+    /// That the packing machine runs at once; how many a run used is in its `timings.csv`.
     threads: Option<usize>,
 }
 

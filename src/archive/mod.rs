@@ -6,7 +6,7 @@
 //! ```text
 //! manifest-sha256.txt    digest of every other file, as `sha256sum -c` reads it
 //! README.md              what this is, how to check and how to repeat it
-//! environment.json       program, compiler and machine
+//! environment.json       program, compiler and the machine that packed it
 //! Cargo.lock             the dependencies
 //! experiments/RUN.toml   what to run again
 //! data/RUN/  plots/RUN/  what came out
