@@ -91,7 +91,7 @@ fn winds_oddly(outline: &[DVec2], point: DVec2) -> bool {
     let n = outline.len();
     let angles = (0..n).map(|i| {
         let (a, b) = (outline[i] - point, outline[(i + 1) % n] - point);
-        a.perp_dot(b).atan2(a.dot(b))
+        libm::atan2(a.perp_dot(b), a.dot(b))
     });
     let rounds = (angles.sum::<f64>() / TAU).round();
     rounds.rem_euclid(2.0) == 1.0
