@@ -52,7 +52,7 @@ pub struct CurveRecord {
 }
 
 /// The inner nodes of one tree on one axis, or on all together, by size. A row of `medians.csv`. A node counts once for
-/// each axis on which it has a length; it has at least two objects.
+/// each axis on which a plane parts it; it has at least two objects.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct MedianRecord {

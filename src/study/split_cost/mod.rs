@@ -36,7 +36,7 @@ fn ranks(asked: &SplitCost, scene: &Scene) -> Vec<u32> {
 /// Identity of a scene's cell, from all that its results depend on.
 fn identity(plan: &Plan, asked: &SplitCost, scene: &Scene) -> String {
     let text = format!(
-        "{SCHEMA} split-cost {} {} seed {} {:?} {:?} {} {:?} {:?}",
+        "{SCHEMA} split-cost by planes inside {} {} seed {} {:?} {:?} {} {:?} {:?}",
         scene.name,
         content(scene),
         plan.seed,
