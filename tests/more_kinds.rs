@@ -1,13 +1,15 @@
 //! The kinds `termination` and `split-cost`, and slices, as a user meets them: files, resumption, wrong input.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod runs;
+
 use std::collections::BTreeMap;
 use std::fs;
 use std::path::Path;
 
-use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
+use runs::{contents, folder, validate};
 use sahlab::study::records::{CurveNodeRecord, MedianRecord, OctreeRecord, SliceRecord};
 use serde::de::DeserializeOwned;
 
@@ -37,34 +39,6 @@ octree = { limit = 3, levels = 3, lines = 500 }
 cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
 expect = { equal_within = 1e-12 }
 "#;
-
-fn folder(text: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("e.toml"), text).unwrap();
-    folder
-}
-
-fn validate(folder: &Path) -> Command {
-    let mut command = Command::cargo_bin("validate").unwrap();
-    command.current_dir(folder).args(["run", "e.toml"]);
-    command
-}
-
-/// Data, tables and figures, but for those that hold times.
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut all = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        if path.is_dir() {
-            let inside = contents(&path).into_iter();
-            all.extend(inside.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
-        } else if !sahlab::archive::holds_times(&name) {
-            all.insert(name, fs::read(path).unwrap());
-        }
-    }
-    all
-}
 
 fn rows<T: DeserializeOwned>(folder: &Path, name: &str) -> Vec<T> {
     let mut reader = csv::Reader::from_path(folder.join("data/e").join(name)).unwrap();

@@ -1,13 +1,13 @@
 //! The kind `strategies` as a user meets it: files, resumption, equality for any number of threads, wrong input.
 #![allow(clippy::unwrap_used, missing_docs)]
 
-use std::collections::BTreeMap;
-use std::fs;
-use std::path::Path;
+mod runs;
 
-use assert_cmd::Command;
+use std::fs;
+
 use predicates::prelude::*;
 use predicates::str::contains;
+use runs::{contents, folder, validate};
 
 const GOOD: &str = r#"kind = "strategies"
 question = "Which tree?"
@@ -32,34 +32,6 @@ pass_s = 0.002
 [expect]
 family = 0.001
 "#;
-
-fn folder(text: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().unwrap();
-    fs::write(folder.path().join("e.toml"), text).unwrap();
-    folder
-}
-
-fn validate(folder: &Path) -> Command {
-    let mut command = Command::cargo_bin("validate").unwrap();
-    command.current_dir(folder).args(["run", "e.toml"]);
-    command
-}
-
-/// What must not differ between runs: everything but seconds and what is made of them.
-fn contents(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let mut all = BTreeMap::new();
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        let name = path.file_name().unwrap().to_str().unwrap().to_owned();
-        if path.is_dir() {
-            let inside = contents(&path).into_iter();
-            all.extend(inside.map(|(file, bytes)| (format!("{name}/{file}"), bytes)));
-        } else if !sahlab::archive::holds_times(&name) {
-            all.insert(name, fs::read(path).unwrap());
-        }
-    }
-    all
-}
 
 #[test]
 fn data_is_the_same_for_any_threads_and_after_a_stop() {
