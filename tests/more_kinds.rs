@@ -4,7 +4,6 @@
 mod runs;
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::Path;
 
 use predicates::prelude::*;
