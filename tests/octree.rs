@@ -5,13 +5,13 @@ mod common;
 
 use std::collections::BTreeMap;
 
-use common::{hard_lines, random_boxes, rules};
+use common::{Leaves, hard_lines, random_boxes, rules};
 use glam::DVec3;
 use sahlab::geom::{Aabb, Line, Span};
 use sahlab::kd::audit::audit;
 use sahlab::kd::octree::Octree;
 use sahlab::kd::traverse::traverse_line;
-use sahlab::kd::{NodeKind, Probe, Stack, Strategy, Tree, Work, build, predict};
+use sahlab::kd::{NodeKind, Stack, Strategy, Tree, Work, build, predict};
 use sahlab::rays::SurfaceLines;
 use sahlab::scene::Scene;
 
@@ -45,16 +45,6 @@ fn kd_leaves(tree: &Tree) -> BTreeMap<Key, Vec<u32>> {
         NodeKind::Inner { .. } => None,
     };
     nodes.filter_map(leaf).collect()
-}
-
-/// Numbers of the leaves visited.
-#[derive(Default)]
-struct Leaves(Vec<u32>);
-
-impl Probe for Leaves {
-    fn leaf(&mut self, node: u32, _: u32) {
-        self.0.push(node);
-    }
 }
 
 #[test]

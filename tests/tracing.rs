@@ -3,13 +3,13 @@
 
 mod common;
 
-use common::rules;
+use common::{Leaves, rules};
 use glam::DVec3;
 use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere};
 use sahlab::kd::traverse::occluded_watched;
 use sahlab::kd::{
-    Hit, NodeKind, Probe, Rules, Stack, Strategy, Tracing, Tree, Work, build, build_objects,
-    nearest, occluded, traverse,
+    Hit, NodeKind, Rules, Stack, Strategy, Tracing, Tree, Work, build, build_objects, nearest,
+    occluded, traverse,
 };
 use sahlab::rays::{SurfaceLines, Uniforms};
 use sahlab::scene::Scene;
@@ -176,16 +176,6 @@ fn nearest_hits_are_brute_forces() {
             10 * hits > all,
             "{name}: {hits} hits of {all} rays: too few to mean anything"
         );
-    }
-}
-
-/// The leaves of a traversal, in order.
-#[derive(Default)]
-struct Leaves(Vec<u32>);
-
-impl Probe for Leaves {
-    fn leaf(&mut self, node: u32, _: u32) {
-        self.0.push(node);
     }
 }
 

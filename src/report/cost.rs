@@ -4,7 +4,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::ReportError;
 use super::axis::{Axis, extent};
-use super::figure::{Figure, Pen};
+use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::glyphs::SUB;
 use super::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use super::number::{Z99, decimals_for, digits_for, significant};
@@ -15,8 +15,6 @@ use super::text::{LEADING, MEDIUM, SMALL, caption_lines, text_width, title_and_c
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Does the cost the heuristic predicts equal the cost counted?";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Left edge of the first panel of deviations.
 const FIRST: f64 = 284.0;
 

@@ -14,6 +14,11 @@ use super::bitmap::Bitmap;
 use super::canvas::{Canvas, Placed};
 use super::{raster, svg};
 
+/// Width of every figure, in points: 7.2 inches, the text of a page.
+pub const WIDTH: f64 = 518.4;
+/// Left margin of titles and captions, in points; the right one is as wide.
+pub const LEFT: f64 = 8.0;
+
 /// Backend units in a point (1/72 inch).
 pub const UNITS: f64 = 20.0;
 

@@ -11,7 +11,7 @@ use statrs::distribution::{Binomial, ContinuousCDF, DiscreteCDF, Normal};
 use super::ReportError;
 use super::axis::{Axis, extent};
 use super::density::Density;
-use super::figure::{Figure, Pen};
+use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::legend::{Key, legend};
 use super::number::{Z99, counted, decimals_for, fixed, grouped, significant};
 use super::palette::{BLUE, INK, Look, Marker, SKY, VERMILLION, faded};
@@ -26,8 +26,6 @@ pub const MOST_MARKS: usize = 5_000;
 const LEAST_EXPECTED: f64 = 10.0;
 
 const TITLE: &str = "Does a node's surface area tell how many lines hit it?";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Right edge of the panels.
 const EDGE: f64 = WIDTH - LEFT;
 const LEGEND: f64 = 31.0;

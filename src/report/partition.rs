@@ -4,7 +4,7 @@ use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::extent;
-use super::figure::{Figure, Pen};
+use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::number::{counted, significant};
 use super::palette::{BLUE, INK, MUTED, VERMILLION, faded};
 use super::series::distinct;
@@ -12,8 +12,6 @@ use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption}
 use crate::study::records::{OutlineRecord, SliceRecord};
 
 const TITLE: &str = "Where strategies cut: a slice through the cells of their trees";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 const COLUMNS: usize = 4;
 const GAP: f64 = 9.0;
 /// Room above a panel for its name.

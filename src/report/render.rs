@@ -5,14 +5,12 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::Axis;
 use super::bitmap::Bitmap;
-use super::figure::{Figure, Pen};
+use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::glyphs::SUB;
 use super::number::grouped;
 use super::palette::{AXIS, INK, MUTED, viridis};
 use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
 
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Side of each of the two squares, and the gap between them.
 const SIDE: f64 = 226.0;
 const GAP: f64 = 12.0;

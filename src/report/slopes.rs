@@ -3,7 +3,7 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::axis::{Axis, extent};
-use super::figure::Figure;
+use super::figure::{Figure, LEFT, WIDTH};
 use super::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use super::number::Z99;
 use super::palette::{INK, SKY, faded};
@@ -13,8 +13,6 @@ use super::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title_and_cap
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Do hits grow in proportion to surface area, for every scene and strategy?";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Room for one strategy, and what a row has besides, in points.
 const PITCH: f64 = 5.4;
 const ROW: f64 = 9.0;

@@ -4,7 +4,7 @@
 use glam::DVec3;
 use sahlab::cost::CostModel;
 use sahlab::geom::{Aabb, Line};
-use sahlab::kd::{Rules, StopRule, Strategy, Tree, build};
+use sahlab::kd::{Probe, Rules, StopRule, Strategy, Tree, build};
 use sahlab::rays::{SurfaceLines, Uniforms};
 
 /// Rules with the usual costs.
@@ -95,4 +95,14 @@ pub const STOPS: [&str; 7] = [
 /// A rule as parsed.
 pub fn stop(text: &str) -> StopRule {
     text.parse().unwrap()
+}
+
+/// The leaves of a traversal, in order.
+#[derive(Default)]
+pub struct Leaves(pub Vec<u32>);
+
+impl Probe for Leaves {
+    fn leaf(&mut self, node: u32, _: u32) {
+        self.0.push(node);
+    }
 }

@@ -2,7 +2,7 @@
 
 use super::CurveNodeRecord as Node;
 use crate::report::axis::Axis;
-use crate::report::figure::{Figure, Pen};
+use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend};
 use crate::report::number::counted;
 use crate::report::palette::{AXIS, BLUE, GREEN, INK, Look, Marker, SKY, VERMILLION, faded};
@@ -12,8 +12,6 @@ use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, title_and_caption
 use crate::study::records::{CurveRecord, Summary};
 
 const TITLE: &str = "Where is the cheapest plane? The split cost across a node";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Size of a panel, and how far apart panels begin.
 const SIZE: (f64, f64) = (214.0, 118.0);
 const PITCH: (f64, f64) = (252.0, 160.0);

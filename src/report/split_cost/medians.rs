@@ -4,7 +4,7 @@ use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
 
 use crate::report::axis::{Axis, Tick, extent};
-use crate::report::figure::Figure;
+use crate::report::figure::{Figure, LEFT, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use crate::report::number::grouped;
 use crate::report::palette::{INK, Look, faded};
@@ -14,8 +14,6 @@ use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title
 use crate::study::records::{MedianRecord, Summary};
 
 const TITLE: &str = "Does the cheapest plane lie between the medians, and do they cost the same?";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 const DOWN: f64 = 150.0;
 /// Where each object counts once: the scenes' lines lie on top of each other.
 const CENTRES: RGBAColor = faded(INK, 0.8);

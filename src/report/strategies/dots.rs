@@ -9,7 +9,7 @@ use super::averages::Averages;
 use super::havran;
 use super::part::{Measure, Part, REFERENCE};
 use crate::report::axis::{Axis, extent};
-use crate::report::figure::{Figure, Pen};
+use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use crate::report::number::significant;
 use crate::report::palette::{GRID, INK, Look, MUTED, SKY, faded};
@@ -19,8 +19,6 @@ use crate::report::text::{
     LEADING, MEDIUM, SMALL, capitalised, caption_lines, fit, text_width, title_and_caption,
 };
 
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Height of the row of a scene, and of one strategy within a row of averages.
 const ROW: f64 = 8.6;
 const PITCH: f64 = 4.4;

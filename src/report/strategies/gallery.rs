@@ -7,7 +7,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::netpbm::{read_pfm, read_ppm};
 use super::part::{KINDS, REFERENCE};
 use super::{Named, Strategies};
-use crate::report::figure::Figure;
+use crate::report::figure::{Figure, LEFT, WIDTH};
 use crate::report::number::counted;
 use crate::report::palette::INK;
 use crate::report::render::{self, Render};
@@ -17,8 +17,6 @@ use crate::report::{Bitmap, DOTS_PER_INCH, ReportError};
 use crate::study::records::{CellRecord, RayRecord, Summary, file_stem};
 
 const TITLE: &str = "The scenes, as their rays see them";
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 const TOP: f64 = 24.0;
 /// Between two pictures, and for the name below one.
 const GAP: f64 = 4.0;

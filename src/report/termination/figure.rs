@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::{Measure, Setting, best};
 use crate::report::axis::{Axis, extent};
-use crate::report::figure::{Figure, Pen};
+use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
 use crate::report::number::Z99;
 use crate::report::palette::{INK, Look, Marker, faded};
@@ -16,8 +16,6 @@ use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_
 /// Scenes side by side.
 pub const COLUMNS: usize = 4;
 
-const WIDTH: f64 = 518.4;
-const LEFT: f64 = 8.0;
 /// Left edge of the first panel, and what lies between two of them.
 const FIRST: f64 = 38.0;
 const GAP: f64 = 18.0;

@@ -39,27 +39,31 @@ pub struct CellPlan<'a> {
 }
 
 impl<'a> CellPlan<'a> {
-    /// A cell, without nodes.
-    pub fn new(scene: &'a Scene, rules: Rules, seed: u64, lines: LineRule) -> Self {
+    /// A cell for each of these trees over a scene, without nodes. What all of them need of the scene is worked out once.
+    pub fn of_scene(scene: &'a Scene, all: &[Rules], seed: u64, lines: LineRule) -> Vec<Self> {
         let content = content(scene);
-        let shapes = if rules.clipped {
+        let shapes = if all.iter().any(|rules| rules.clipped) {
             whole(scene)
         } else {
             String::new()
         };
-        let identity = format!(
-            "{SCHEMA} {} {content}{shapes} {rules:?} seed {seed} {lines:?}",
-            scene.name
-        );
-        Self {
-            id: digest(identity.as_bytes()),
-            scene,
-            rules,
-            seed,
-            line_seed: line_seed(seed, &content),
-            lines,
-            nodes: false,
-        }
+        let cell = |&rules: &Rules| {
+            let shapes = if rules.clipped { &*shapes } else { "" };
+            let identity = format!(
+                "{SCHEMA} {} {content}{shapes} {rules:?} seed {seed} {lines:?}",
+                scene.name
+            );
+            Self {
+                id: digest(identity.as_bytes()),
+                scene,
+                rules,
+                seed,
+                line_seed: line_seed(seed, &content),
+                lines,
+                nodes: false,
+            }
+        };
+        all.iter().map(cell).collect()
     }
 }
 

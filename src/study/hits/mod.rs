@@ -25,18 +25,18 @@ use cell::{CellPlan, CellResult, measure};
 fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     let mut cells = Vec::new();
     for scene in scenes {
-        for &strategy in &asked.strategies {
-            let rules = Rules {
-                strategy,
-                stop: asked.stop,
-                cost: plan.cost,
-                clipped: asked.clipped,
-            };
-            let drawn = scene.name == asked.figure.scene && strategy == asked.figure.strategy;
-            cells.push(CellPlan {
-                nodes: asked.nodes || drawn,
-                ..CellPlan::new(scene, rules, plan.seed, asked.lines)
-            });
+        let rules = asked.strategies.iter().map(|&strategy| Rules {
+            strategy,
+            stop: asked.stop,
+            cost: plan.cost,
+            clipped: asked.clipped,
+        });
+        let rules: Vec<Rules> = rules.collect();
+        for mut cell in CellPlan::of_scene(scene, &rules, plan.seed, asked.lines) {
+            let drawn =
+                scene.name == asked.figure.scene && cell.rules.strategy == asked.figure.strategy;
+            cell.nodes = asked.nodes || drawn;
+            cells.push(cell);
         }
     }
     cells

@@ -48,16 +48,16 @@ pub fn of_scene<'a>(plan: &Plan, asked: &Strategies, scene: &'a Scene) -> Vec<Tr
         cost: plan.cost,
         clipped: asked.clipped,
     };
-    let cell = |rules| {
-        let mut plan = CellPlan::new(scene, rules, plan.seed, asked.lines);
+    let stops = asked.stops.iter();
+    let all = stops.flat_map(|&stop| asked.strategies.iter().map(move |&s| rules(stop, s)));
+    let all: Vec<Rules> = all.collect();
+    let cell = |mut plan: CellPlan<'a>| {
         let identity = format!("{} {seen} {} {}", plan.id, asked.pixels, asked.checked);
         plan.id = digest(identity.as_bytes());
         TreeCell { plan, look }
     };
-    let stops = asked.stops.iter();
-    stops
-        .flat_map(|&stop| asked.strategies.iter().map(move |&s| cell(rules(stop, s))))
-        .collect()
+    let plans = CellPlan::of_scene(scene, &all, plan.seed, asked.lines);
+    plans.into_iter().map(cell).collect()
 }
 
 /// The finished trees of a scene, if all of them, their pictures and their seconds are there: trees are timed together or

@@ -133,7 +133,9 @@ fn seconds(
     };
     // One ray is not timed: it brings what its neighbours need into the cache, as the chunk before would have done, be it
     // in the sample or not.
-    rays.first().iter().for_each(|cast| trace(cast));
+    if let Some(first) = rays.first() {
+        trace(first);
+    }
     let started = Instant::now();
     rays.iter().for_each(trace);
     started.elapsed().as_secs_f64()
