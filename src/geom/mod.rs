@@ -1,6 +1,7 @@
 //! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64.
 
 mod aabb;
+mod cast;
 mod clip;
 mod cone;
 mod line;
@@ -11,6 +12,7 @@ mod sphere;
 mod triangle;
 
 pub use aabb::Aabb;
+pub use cast::Cast;
 pub use clip::{Clipper, clip_slack};
 pub use cone::Cone;
 pub use line::{Line, PADDING, Ray, Span};

@@ -4,6 +4,7 @@
 //! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]),
 //! counted ones from the planes alone ([`traverse()`], [`stream`]).
 
+pub mod ask;
 pub mod audit;
 pub mod build;
 mod clip;
@@ -21,10 +22,11 @@ mod sweep;
 pub mod traverse;
 pub mod tree;
 
+pub use ask::Ask;
 pub use build::{Rules, build, build_objects};
 pub use count::Counts;
 pub use predict::{Prediction, predict};
-pub use probe::{NoProbe, Probe, Work};
+pub use probe::{NoProbe, Probe, Turn, Work};
 pub use stop::StopRule;
 pub use strategy::Strategy;
 pub use traverse::{Counting, Hit, Mode, Stack, Tracing, nearest, occluded, traverse};

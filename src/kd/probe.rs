@@ -1,13 +1,30 @@
 //! Probes: what a traversal tells whoever is watching. One loop serves counting, scoring, tracing and timing.
 
+/// Where a ray goes from an inner node.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Turn {
+    /// Into the near child alone.
+    Near,
+    /// Into the far child alone.
+    Far,
+    /// Into both, the near one first.
+    Both,
+}
+
 /// Receives the events of a traversal, before the work they count. Every event defaults to nothing.
 pub trait Probe {
     /// An inner node is visited.
     #[inline(always)]
     fn inner(&mut self, _node: u32) {}
+    /// From the inner node just visited the ray goes on like this.
+    #[inline(always)]
+    fn turn(&mut self, _node: u32, _turn: Turn) {}
     /// A leaf with this many objects is visited, each of which is tested.
     #[inline(always)]
     fn leaf(&mut self, _node: u32, _objects: u32) {}
+    /// This object is tested against a ray; of lines that are only counted, none is.
+    #[inline(always)]
+    fn test(&mut self, _object: u32) {}
     /// The traversal ended within the last leaf, as an any-hit does: this many of its objects were not tested after all.
     #[inline(always)]
     fn untested(&mut self, _objects: u32) {}
@@ -64,9 +81,21 @@ impl<A: Probe, B: Probe> Probe for (A, B) {
     }
 
     #[inline(always)]
+    fn turn(&mut self, node: u32, turn: Turn) {
+        self.0.turn(node, turn);
+        self.1.turn(node, turn);
+    }
+
+    #[inline(always)]
     fn leaf(&mut self, node: u32, objects: u32) {
         self.0.leaf(node, objects);
         self.1.leaf(node, objects);
+    }
+
+    #[inline(always)]
+    fn test(&mut self, object: u32) {
+        self.0.test(object);
+        self.1.test(object);
     }
 
     #[inline(always)]
@@ -83,8 +112,18 @@ impl<P: Probe> Probe for &mut P {
     }
 
     #[inline(always)]
+    fn turn(&mut self, node: u32, turn: Turn) {
+        (**self).turn(node, turn);
+    }
+
+    #[inline(always)]
     fn leaf(&mut self, node: u32, objects: u32) {
         (**self).leaf(node, objects);
+    }
+
+    #[inline(always)]
+    fn test(&mut self, object: u32) {
+        (**self).test(object);
     }
 
     #[inline(always)]

@@ -7,7 +7,7 @@
 
 use crate::geom::{Aabb, Line, Objects, PADDING, Ray, Span};
 
-use super::{NoProbe, NodeKind, Probe, Tree};
+use super::{NoProbe, NodeKind, Probe, Tree, Turn};
 
 /// How parameters of planes are treated.
 pub trait Mode {
@@ -47,16 +47,16 @@ pub struct Stack(Vec<(u32, Span)>);
 
 /// Visit the nodes that `line` meets within `span`, front to back.
 ///
-/// `leaf` gets a leaf's objects and returns the t up to which further nodes matter: +inf for a line, the best hit so far
+/// `leaf` gets a leaf's objects and the probe, and returns the t up to which further nodes matter: +inf for a line, the best hit so far
 /// for a nearest hit, -inf to stop.
 #[inline]
-pub fn traverse<M: Mode>(
+pub fn traverse<M: Mode, P: Probe>(
     tree: &Tree,
     line: &Line,
     span: Span,
     stack: &mut Stack,
-    mut probe: impl Probe,
-    mut leaf: impl FnMut(&[u32]) -> f64,
+    probe: &mut P,
+    mut leaf: impl FnMut(&[u32], &mut P) -> f64,
 ) {
     let Some(Span { mut t0, mut t1 }) = M::enter(&tree.world, line, span) else {
         return;
@@ -70,8 +70,10 @@ pub fn traverse<M: Mode>(
                 probe.inner(node);
                 if line.is_parallel(axis) {
                     let origin = line.origin[axis];
+                    let inside = origin == split;
+                    probe.turn(node, if inside { Turn::Both } else { Turn::Near });
                     node = left + u32::from(origin > split);
-                    if origin == split {
+                    if inside {
                         stack.push((left + 1, Span { t0, t1 }));
                     }
                     continue;
@@ -81,10 +83,13 @@ pub fn traverse<M: Mode>(
                 let t = line.t_at(axis, split);
                 let slack = M::PADDING * t.abs();
                 if t - slack > t1 {
+                    probe.turn(node, Turn::Near);
                     node = near;
                 } else if t + slack < t0 {
+                    probe.turn(node, Turn::Far);
                     node = far;
                 } else {
+                    probe.turn(node, Turn::Both);
                     let far_t0 = t0.max(t - slack);
                     stack.push((far, Span { t0: far_t0, t1 }));
                     node = near;
@@ -93,7 +98,7 @@ pub fn traverse<M: Mode>(
             }
             NodeKind::Leaf { first, count } => {
                 probe.leaf(node, count);
-                let limit = leaf(tree.objects(first, count));
+                let limit = leaf(tree.objects(first, count), probe);
                 // Skip what begins beyond the limit, but do not stop there: the right side of a plane that the line
                 // lies in waits below nodes that begin later.
                 loop {
@@ -114,8 +119,14 @@ pub fn traverse<M: Mode>(
 
 /// Visit every node that a line meets, as the area prediction assumes: the line never stops.
 #[inline]
-pub fn traverse_line(tree: &Tree, line: &Line, span: Span, stack: &mut Stack, probe: impl Probe) {
-    traverse::<Counting>(tree, line, span, stack, probe, |_| f64::INFINITY);
+pub fn traverse_line(
+    tree: &Tree,
+    line: &Line,
+    span: Span,
+    stack: &mut Stack,
+    mut probe: impl Probe,
+) {
+    traverse::<Counting, _>(tree, line, span, stack, &mut probe, |_, _| f64::INFINITY);
 }
 
 /// The nearest hit of a ray.
@@ -145,22 +156,24 @@ pub fn nearest(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> 
 
 /// As [`nearest`], with a probe.
 #[inline]
-pub fn nearest_watched(
+pub fn nearest_watched<P: Probe>(
     tree: &Tree,
     objects: &Objects,
     ray: &Ray,
     stack: &mut Stack,
-    probe: impl Probe,
+    mut probe: P,
 ) -> Option<Hit> {
     let mut best: Option<Hit> = None;
-    traverse::<Tracing>(tree, &ray.line, ray.span, stack, probe, |in_leaf| {
+    let leaf = |in_leaf: &[u32], probe: &mut P| {
         for &object in in_leaf {
+            probe.test(object);
             if let Some(t) = objects.intersect(object, ray) {
                 best = Hit::nearer(best, object, t);
             }
         }
         best.map_or(f64::INFINITY, |hit| hit.t)
-    });
+    };
+    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
     best
 }
 
@@ -172,26 +185,52 @@ pub fn occluded(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) ->
 /// As [`occluded`], with a probe. Leaves come front to back, their objects in the order of the references; the first
 /// object hit ends it, however far its hit.
 #[inline]
-pub fn occluded_watched(
+pub fn occluded_watched<P: Probe>(
     tree: &Tree,
     objects: &Objects,
     ray: &Ray,
     stack: &mut Stack,
-    mut probe: impl Probe,
+    mut probe: P,
 ) -> bool {
     let mut untested = None;
-    traverse::<Tracing>(tree, &ray.line, ray.span, stack, &mut probe, |in_leaf| {
+    let leaf = |in_leaf: &[u32], probe: &mut P| {
         if untested.is_none() {
-            let hit = |&object: &u32| objects.intersect(object, ray).is_some();
+            let hit = |&object: &u32| {
+                probe.test(object);
+                objects.intersect(object, ray).is_some()
+            };
             untested = in_leaf.iter().position(hit).map(|i| in_leaf.len() - 1 - i);
         }
         match untested {
             Some(_) => f64::NEG_INFINITY,
             None => f64::INFINITY,
         }
-    });
+    };
+    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
     if let Some(objects) = untested {
         probe.untested(objects as u32);
     }
     untested.is_some()
+}
+
+/// How many of the leaves' references the ray hits within its span when nothing stops it: every object of every leaf it meets
+/// is tested, one in several leaves each time.
+#[inline]
+pub fn all_watched<P: Probe>(
+    tree: &Tree,
+    objects: &Objects,
+    ray: &Ray,
+    stack: &mut Stack,
+    mut probe: P,
+) -> u64 {
+    let mut hits = 0;
+    let leaf = |in_leaf: &[u32], probe: &mut P| {
+        for &object in in_leaf {
+            probe.test(object);
+            hits += u64::from(objects.intersect(object, ray).is_some());
+        }
+        f64::INFINITY
+    };
+    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
+    hits
 }

@@ -3,9 +3,8 @@
 use rayon::prelude::*;
 
 use super::{RayKind, RaySet};
-use crate::geom::{Objects, Ray};
-use crate::kd::traverse::{nearest_watched, occluded_watched, traverse};
-use crate::kd::{Probe, Stack, Tracing, Tree, Work};
+use crate::geom::Objects;
+use crate::kd::{Stack, Tracing, Tree, Work, traverse};
 
 /// What the rays of one kind did together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -74,15 +73,15 @@ fn count_testing(set: &RaySet, tree: &Tree, objects: &Objects, every: usize) -> 
                         let mut own = Work::default();
                         let ray = cast.ray();
                         let hit = if known || test_all {
-                            hits(kind, tree, objects, &ray, &mut stack, &mut own)
+                            kind.ask().hits(tree, objects, &ray, &mut stack, &mut own)
                         } else {
-                            traverse::<Tracing>(
+                            traverse::<Tracing, _>(
                                 tree,
                                 &ray.line,
                                 ray.span,
                                 &mut stack,
                                 &mut own,
-                                |_| f64::INFINITY,
+                                |_, _| f64::INFINITY,
                             );
                             false
                         };
@@ -112,23 +111,6 @@ fn count_testing(set: &RaySet, tree: &Tree, objects: &Objects, every: usize) -> 
         counts.corners.extend(works);
     }
     counts
-}
-
-/// Whether a ray hits anything, asked as its kind asks.
-pub fn hits(
-    kind: RayKind,
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    probe: impl Probe,
-) -> bool {
-    match kind {
-        RayKind::Shadow => occluded_watched(tree, objects, ray, stack, probe),
-        RayKind::Primary | RayKind::Secondary => {
-            nearest_watched(tree, objects, ray, stack, probe).is_some()
-        }
-    }
 }
 
 #[cfg(test)]

@@ -11,5 +11,5 @@ pub mod whitted;
 pub use camera::{Camera, PIXELS};
 pub use count::{RayCounts, Tally, count};
 pub use picture::Picture;
-pub use ray_set::{Cast, KindRays, RayKind, RaySet};
+pub use ray_set::{KindRays, RayKind, RaySet};
 pub use whitted::{MAX_DEPTH, Traced, trace};

@@ -2,9 +2,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use glam::DVec3;
-
-use crate::geom::{Line, Ray, Span};
+use crate::geom::Cast;
+use crate::kd::Ask;
 
 /// What a ray is cast for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
@@ -30,29 +29,19 @@ impl RayKind {
             Self::Secondary => "secondary",
         }
     }
+
+    /// What such rays ask: shadow rays for any hit, all others for the nearest.
+    pub const fn ask(self) -> Ask {
+        match self {
+            Self::Shadow => Ask::Any,
+            Self::Primary | Self::Secondary => Ask::Nearest,
+        }
+    }
 }
 
 impl std::fmt::Display for RayKind {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.pad(self.name())
-    }
-}
-
-/// A ray as it is kept: 64 bytes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Cast {
-    /// Point at t = 0.
-    pub origin: DVec3,
-    /// Direction of unit length, so that t is a distance.
-    pub direction: DVec3,
-    /// Where it begins and ends.
-    pub span: Span,
-}
-
-impl Cast {
-    /// The ray, with the constants of the object tests.
-    pub fn ray(&self) -> Ray {
-        Ray::new(Line::new(self.origin, self.direction), self.span)
     }
 }
 
@@ -165,12 +154,10 @@ impl RaySet {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
+    use glam::DVec3;
 
-    #[test]
-    fn a_ray_is_sixty_four_bytes() {
-        assert_eq!(size_of::<Cast>(), 64);
-    }
+    use super::*;
+    use crate::geom::Span;
 
     #[test]
     fn rows_are_joined_in_order() {

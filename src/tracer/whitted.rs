@@ -18,8 +18,8 @@ use rayon::prelude::*;
 use super::optics::{reflected, refracted};
 use super::ray_set::KindRays;
 use super::surface::Surface;
-use super::{Camera, Cast, Picture, RayKind, RaySet};
-use crate::geom::Span;
+use super::{Camera, Picture, RayKind, RaySet};
+use crate::geom::{Cast, Span};
 use crate::kd::{Stack, Tree, nearest, occluded};
 use crate::scene::{Look, Scene};
 

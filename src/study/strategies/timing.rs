@@ -12,12 +12,12 @@ use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 
+use crate::geom::Cast;
 use crate::kd::{NoProbe, Rules, Stack, Tree};
 use crate::scene::Scene;
 use crate::study::hits::cell::build_tree;
 use crate::study::records::PassTiming;
-use crate::tracer::count::hits;
-use crate::tracer::{Cast, RayKind, RaySet};
+use crate::tracer::{RayKind, RaySet};
 
 use super::asked::Timing;
 
@@ -127,9 +127,10 @@ fn seconds(
     stack: &mut Stack,
 ) -> f64 {
     let rays = &rays.of(kind).rays[chunk.clone()];
+    let ask = kind.ask();
     let mut trace = |cast: &Cast| {
         let ray = cast.ray();
-        black_box(hits(kind, tree, &scene.objects, &ray, stack, NoProbe));
+        black_box(ask.hits(tree, &scene.objects, &ray, stack, NoProbe));
     };
     // One ray is not timed: it brings what its neighbours need into the cache, as the chunk before would have done, be it
     // in the sample or not.
