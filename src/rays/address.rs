@@ -17,6 +17,8 @@ pub enum Purpose {
     Laws = 2,
     /// Boxes and triangles that check a sampler.
     Checks = 3,
+    /// Rays of sources that are no law of lines.
+    Sources = 4,
 }
 
 /// A generator for a seed and a purpose, at the start of its stream.
