@@ -4,12 +4,14 @@ pub mod hits;
 pub mod identity;
 pub mod lines;
 pub mod plan;
+pub mod ray_sets;
 pub mod record;
 pub mod records;
 pub mod split_cost;
 pub mod store;
 pub mod strategies;
 pub mod watcher;
+pub mod work;
 
 use thiserror::Error;
 

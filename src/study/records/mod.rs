@@ -6,11 +6,13 @@
 
 mod split_cost;
 mod strategies;
+mod work;
 
 use serde::{Deserialize, Serialize};
 
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
+pub use work::WorkRecord;
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 2;

@@ -1,0 +1,221 @@
+//! Sets of rays by name: a source and what its rays ask, or the rays of a picture by kind, or a user's own.
+
+use std::fmt;
+use std::str::FromStr;
+
+use serde::{Deserialize, Serialize};
+
+use crate::geom::Cast;
+use crate::kd::{Ask, Rules, StopRule, Strategy};
+use crate::rays::{Source, SourceRays};
+use crate::scene::Scene;
+use crate::tracer::{RayKind, trace};
+
+use super::hits::cell::build_tree;
+use super::plan::{Wrong, wrong_unless};
+use crate::cost::CostModel;
+
+/// The name of a set of rays: `SOURCE[:ASK]` such as `lines` or `volume-ray:nearest` (without ASK nothing stops them), or
+/// `primary`, `shadow` or `secondary`, the rays of the scene's picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum RaysOf {
+    /// Rays of a source.
+    Source(Source, Ask),
+    /// Rays of the picture.
+    Traced(RayKind),
+    /// A user's own rays, named `own`: only where a file gives them.
+    Own(Ask),
+}
+
+/// The name of a user's own rays.
+const OWN: &str = "own";
+
+impl RaysOf {
+    /// What the rays ask.
+    pub fn ask(self) -> Ask {
+        match self {
+            Self::Source(_, ask) | Self::Own(ask) => ask,
+            Self::Traced(kind) => kind.ask(),
+        }
+    }
+
+    /// Sets that an experiment names: each once, at least one.
+    pub fn check(sets: &[Self]) -> Result<(), Wrong> {
+        wrong_unless(!sets.is_empty(), "rays", || {
+            "rays must name at least one set".into()
+        })?;
+        for (i, set) in sets.iter().enumerate() {
+            wrong_unless(!sets[..i].contains(set), "rays", || {
+                format!("the rays '{set}' are named twice")
+            })?;
+            wrong_unless(!matches!(set, Self::Own(_)), "rays", || {
+                format!("rays '{OWN}' come from the command line, not from an experiment")
+            })?;
+        }
+        Ok(())
+    }
+}
+
+impl fmt::Display for RaysOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let asks = |name: &str, ask: Ask| match ask {
+            Ask::All => name.into(),
+            _ => format!("{name}:{ask}"),
+        };
+        f.pad(&match self {
+            Self::Source(source, ask) => asks(source.name(), *ask),
+            Self::Traced(kind) => kind.name().into(),
+            Self::Own(ask) => asks(OWN, *ask),
+        })
+    }
+}
+
+impl FromStr for RaysOf {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        if let Some(kind) = RayKind::ALL.into_iter().find(|kind| kind.name() == text) {
+            return Ok(Self::Traced(kind));
+        }
+        let (name, ask) = text.split_once(':').unwrap_or((text, Ask::All.name()));
+        let wrong = |why: String| {
+            format!(
+                "'{text}' names no rays: {why}; expected SOURCE or SOURCE:ASK, or one of {}",
+                RayKind::ALL.map(RayKind::name).join(", ")
+            )
+        };
+        let asked = Ask::ALL.into_iter().find(|own| own.name() == ask);
+        let ask = asked.ok_or_else(|| {
+            let names = Ask::ALL.map(Ask::name).join(", ");
+            wrong(format!("'{ask}' is no ASK, which is one of {names}"))
+        })?;
+        if name == OWN {
+            return Ok(Self::Own(ask));
+        }
+        Ok(Self::Source(name.parse().map_err(wrong)?, ask))
+    }
+}
+
+impl TryFrom<String> for RaysOf {
+    type Error = String;
+
+    fn try_from(text: String) -> Result<Self, String> {
+        text.parse()
+    }
+}
+
+impl From<RaysOf> for String {
+    fn from(rays: RaysOf) -> Self {
+        rays.to_string()
+    }
+}
+
+/// A set of rays.
+pub struct Rays {
+    /// Its name.
+    pub of: RaysOf,
+    /// The rays.
+    pub casts: Vec<Cast>,
+    /// Whether these are all rays there are, so that their counts have no sampling error: of a picture, of a file.
+    pub complete: bool,
+}
+
+/// How many rays.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Number {
+    /// Rays of a source.
+    pub rays: u64,
+    /// Pixels across and up of the picture; all its rays are taken.
+    pub pixels: u32,
+}
+
+/// The rays of these sets in a scene. Sets of traced rays are there only if the scene has a look, and if there is any ray
+/// of the kind.
+///
+/// # Errors
+/// If the scene cannot have such rays.
+pub fn gather(
+    scene: &Scene,
+    sets: &[RaysOf],
+    number: Number,
+    seed: u64,
+) -> Result<Vec<Rays>, String> {
+    let traces = sets.iter().any(|set| matches!(set, RaysOf::Traced(_)));
+    let traced = scene.look.as_ref().filter(|_| traces).map(|look| {
+        // The rays are the same whatever tree they are made with.
+        let reference = Rules {
+            strategy: Strategy::Sah,
+            stop: StopRule::CostGain { depth: None },
+            cost: CostModel::WALD_HAVRAN,
+            clipped: false,
+        };
+        trace(scene, look, &build_tree(scene, &reference), number.pixels).rays
+    });
+    let mut all = Vec::new();
+    for &of in sets {
+        let casts: Vec<Cast> = match of {
+            RaysOf::Source(source, _) => {
+                let rays = SourceRays::new(source, scene, seed)?;
+                (0..number.rays).map(|i| rays.cast(i)).collect()
+            }
+            RaysOf::Traced(kind) => traced
+                .as_ref()
+                .map_or_else(Vec::new, |rays| rays.of(kind).rays.clone()),
+            RaysOf::Own(_) => Vec::new(),
+        };
+        if !casts.is_empty() {
+            let complete = matches!(of, RaysOf::Traced(_));
+            all.push(Rays {
+                of,
+                casts,
+                complete,
+            });
+        }
+    }
+    Ok(all)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_read_back() {
+        for text in [
+            "lines",
+            "lines:nearest",
+            "volume-segment:any",
+            "beam",
+            "primary",
+            "shadow",
+            "own:nearest",
+        ] {
+            let rays: RaysOf = text.parse().expect(text);
+            assert_eq!(rays.to_string(), text);
+        }
+        assert_eq!("lines:all".parse::<RaysOf>(), "lines".parse());
+        for text in ["", "line", "lines:first", "primary:any", ":any"] {
+            let wrong = text.parse::<RaysOf>().expect_err(text);
+            assert!(wrong.contains("expected SOURCE"), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn pictures_are_complete_and_need_a_look() {
+        let sets = ["lines:nearest", "shadow"].map(|t| t.parse().expect("a set"));
+        let number = Number {
+            rays: 50,
+            pixels: 8,
+        };
+        let with = Scene::load("spd:balls:1").expect("a scene");
+        let rays = gather(&with, &sets, number, 1).expect("rays");
+        assert_eq!(
+            rays.iter().map(|r| r.complete).collect::<Vec<_>>(),
+            [false, true]
+        );
+        assert_eq!(rays[0].casts.len(), 50);
+        let without = Scene::load("simple:soup:20").expect("a scene");
+        assert_eq!(gather(&without, &sets, number, 1).expect("rays").len(), 1);
+    }
+}
