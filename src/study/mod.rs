@@ -10,6 +10,7 @@ pub mod records;
 pub mod split_cost;
 pub mod store;
 pub mod strategies;
+pub mod timing;
 pub mod watcher;
 pub mod work;
 

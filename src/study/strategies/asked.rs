@@ -7,6 +7,7 @@ use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
 use crate::study::records::file_stem;
+use crate::study::timing::Timing;
 use crate::tracer::PIXELS;
 
 use super::slices::SliceOf;
@@ -41,18 +42,6 @@ const MOST_PIXELS: u32 = 2048;
 /// Most rays held against brute force: each meets every object.
 const MOST_CHECKED: u32 = 1_000_000;
 
-/// How seconds are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct Timing {
-    /// Times that every chunk of rays is traced; even, so that there are two halves.
-    pub rounds: u32,
-    /// Times that every tree is built; even likewise.
-    pub builds: u32,
-    /// Seconds above which a pass over the rays of one kind is timed on a random sample.
-    pub pass_s: f64,
-}
-
 /// Bounds written before the run that they judge.
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -81,19 +70,7 @@ impl Strategies {
                 self.pixels
             )
         })?;
-        let Timing {
-            rounds,
-            builds,
-            pass_s,
-        } = self.timing;
-        for (key, times) in [("timing.rounds", rounds), ("timing.builds", builds)] {
-            wrong_unless(times >= 2 && times % 2 == 0, key, || {
-                format!("{key} = {times}, but it must be even and at least 2, for two halves")
-            })?;
-        }
-        wrong_unless(pass_s > 0.0 && pass_s.is_finite(), "timing.pass_s", || {
-            format!("timing.pass_s = {pass_s}, but it must be a number above 0")
-        })?;
+        self.timing.check()?;
         let full = self.pixels == PIXELS;
         wrong_unless(
             full || self.expect.primary_hits_within.is_none(),

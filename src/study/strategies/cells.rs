@@ -12,11 +12,12 @@ use crate::study::hits::cell::{CellPlan, compare, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::records::{CellRecord, PassTiming, RayRecord};
 use crate::study::store::{Store, StoreError, TIMINGS};
-use crate::study::{Plan, RunError, Watcher};
+use crate::study::timing::Timed;
+use crate::study::{Plan, RunError, Watcher, timing};
 use crate::tracer::{RayCounts, RayKind, RaySet, count, trace};
 
 use super::asked::Strategies;
-use super::{pictures, timing};
+use super::pictures;
 
 /// One tree over a scene with a look.
 pub struct TreeCell<'a> {
@@ -167,7 +168,11 @@ pub fn measure(
     watcher.begin(&format!("{} times", scene.name));
     let rules: Vec<Rules> = cells.iter().map(|cell| cell.plan.rules).collect();
     let builds = timing::build_times(scene, &rules, asked.timing, plan.seed);
-    let passes = timing::trace_times(scene, &trees, &traced.rays, asked.timing, plan.seed, || {
+    let sets = RayKind::ALL.map(|kind| {
+        let rays = &traced.rays.of(kind).rays;
+        Timed::all(kind.name().into(), kind.ask(), rays)
+    });
+    let passes = timing::trace_times(scene, &trees, &sets, asked.timing, plan.seed, || {
         watcher.done(cells.len() as u64);
     });
     keep_times(store, cells, builds, passes)?;

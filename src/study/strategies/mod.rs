@@ -5,7 +5,6 @@ pub mod asked;
 pub mod cells;
 pub mod pictures;
 pub mod slices;
-pub mod timing;
 pub mod verdicts;
 
 use crate::scene::Scene;

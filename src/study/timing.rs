@@ -11,21 +11,21 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
+use serde::Deserialize;
 
 use crate::geom::Cast;
-use crate::kd::{NoProbe, Rules, Stack, Tree};
+use crate::kd::{Ask, NoProbe, Rules, Stack, Tree};
 use crate::scene::Scene;
-use crate::study::hits::cell::build_tree;
-use crate::study::records::PassTiming;
-use crate::tracer::{RayKind, RaySet};
 
-use super::asked::Timing;
+use super::hits::cell::build_tree;
+use super::plan::{Wrong, wrong_unless};
+use super::records::PassTiming;
 
 /// What a row of builds is called.
 pub const BUILD: &str = "build";
 
 /// Rays of a chunk: at about a microsecond each well below a scheduler's slice.
-const CHUNK: usize = 64;
+pub const CHUNK: usize = 64;
 
 /// Fewest chunks of a sample, for its standard error.
 const FEWEST: usize = 128;
@@ -33,39 +33,93 @@ const FEWEST: usize = 128;
 /// Halves that are further apart than this tell of a disturbed machine.
 const DISTURBED: f64 = 0.03;
 
-/// The least seconds of each chunk, in the even and the odd rounds.
-struct Pass {
-    kind: RayKind,
+/// How seconds are measured.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Timing {
+    /// Times that every chunk of rays is traced; even, so that there are two halves.
+    pub rounds: u32,
+    /// Times that every tree is built; even likewise.
+    pub builds: u32,
+    /// Seconds above which a pass over the rays of one kind is timed on a random sample.
+    pub pass_s: f64,
+}
+
+impl Timing {
+    /// Whether the values make sense together.
+    pub fn check(&self) -> Result<(), Wrong> {
+        let Self {
+            rounds,
+            builds,
+            pass_s,
+        } = *self;
+        for (key, times) in [("timing.rounds", rounds), ("timing.builds", builds)] {
+            wrong_unless(times >= 2 && times % 2 == 0, key, || {
+                format!("{key} = {times}, but it must be even and at least 2, for two halves")
+            })?;
+        }
+        wrong_unless(pass_s > 0.0 && pass_s.is_finite(), "timing.pass_s", || {
+            format!("timing.pass_s = {pass_s}, but it must be a number above 0")
+        })
+    }
+}
+
+/// Rays to be timed in every tree.
+pub struct Timed<'a> {
+    /// What the rows are called.
+    pub what: String,
+    /// What the rays ask.
+    pub ask: Ask,
+    /// The rays.
+    pub casts: &'a [Cast],
+    /// Their chunks; a tree in which all of them take too long gets a random sample.
+    pub chunks: Vec<Range<usize>>,
+}
+
+impl<'a> Timed<'a> {
+    /// All of these rays.
+    pub fn all(what: String, ask: Ask, casts: &'a [Cast]) -> Self {
+        let chunk = |start: usize| start..(start + CHUNK).min(casts.len());
+        Self {
+            what,
+            ask,
+            casts,
+            chunks: (0..casts.len()).step_by(CHUNK).map(chunk).collect(),
+        }
+    }
+}
+
+/// One set of rays in one tree: the least seconds of each chunk, in the even and the odd rounds.
+struct Pass<'t, 'r> {
+    timed: &'t Timed<'r>,
     /// Which tree.
     tree: usize,
     chunks: Vec<Range<usize>>,
     best: [Vec<f64>; 2],
 }
 
-/// Time the tracing of every kind of ray through every tree, on this thread. `tick` is told after each round. Gives rows
-/// without the name of their cell, tree by tree and kind by kind.
+/// Time the tracing of every set of rays through every tree, on this thread. `tick` is told after each round. Gives rows
+/// without the name of their cell, tree by tree and set by set.
 pub fn trace_times(
     scene: &Scene,
     trees: &[Tree],
-    rays: &RaySet,
+    sets: &[Timed],
     timing: Timing,
     seed: u64,
     mut tick: impl FnMut(),
 ) -> Vec<Vec<PassTiming>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut passes = Vec::new();
-    for kind in RayKind::ALL {
-        let all = rays.of(kind).rays.len();
-        let mut order: Vec<_> = (0..all.div_ceil(CHUNK)).collect();
+    for timed in sets {
+        let mut order = timed.chunks.clone();
         order.shuffle(&mut random);
         for (number, tree) in trees.iter().enumerate() {
-            let chunks = order.iter().map(|&c| c * CHUNK..((c + 1) * CHUNK).min(all));
-            let mut chunks = sample(scene, tree, rays, kind, chunks.collect(), timing.pass_s);
-            // In the order of the picture, as a renderer would go.
+            let mut chunks = sample(scene, tree, timed, &order, timing.pass_s);
+            // In the order of the rays, as a renderer would go.
             chunks.sort_by_key(|chunk| chunk.start);
             let never = vec![f64::INFINITY; chunks.len()];
             passes.push(Pass {
-                kind,
+                timed,
                 tree: number,
                 chunks,
                 best: [never.clone(), never],
@@ -80,7 +134,7 @@ pub fn trace_times(
             let mut stack = Stack::default();
             let best = &mut pass.best[round as usize % 2];
             for (chunk, best) in pass.chunks.iter().zip(best) {
-                let took = seconds(scene, &trees[pass.tree], rays, pass.kind, chunk, &mut stack);
+                let took = seconds(scene, &trees[pass.tree], pass.timed, chunk, &mut stack);
                 *best = best.min(took);
             }
         }
@@ -88,8 +142,7 @@ pub fn trace_times(
     }
     let mut rows = vec![Vec::new(); trees.len()];
     for pass in passes {
-        let all = rays.of(pass.kind).rays.len();
-        rows[pass.tree].push(pass.row(all, timing));
+        rows[pass.tree].push(pass.row(timing));
     }
     rows
 }
@@ -98,39 +151,35 @@ pub fn trace_times(
 fn sample(
     scene: &Scene,
     tree: &Tree,
-    rays: &RaySet,
-    kind: RayKind,
-    mut chunks: Vec<Range<usize>>,
+    timed: &Timed,
+    chunks: &[Range<usize>],
     pass_s: f64,
 ) -> Vec<Range<usize>> {
     let mut stack = Stack::default();
     let mut took = 0.0;
     let mut fit = 0;
-    for chunk in &chunks {
+    for chunk in chunks {
         if fit >= FEWEST && took > pass_s {
             break;
         }
-        took += seconds(scene, tree, rays, kind, chunk, &mut stack);
+        took += seconds(scene, tree, timed, chunk, &mut stack);
         fit += 1;
     }
-    chunks.truncate(fit);
-    chunks
+    chunks[..fit].to_vec()
 }
 
 /// Trace a chunk of rays.
 fn seconds(
     scene: &Scene,
     tree: &Tree,
-    rays: &RaySet,
-    kind: RayKind,
+    timed: &Timed,
     chunk: &Range<usize>,
     stack: &mut Stack,
 ) -> f64 {
-    let rays = &rays.of(kind).rays[chunk.clone()];
-    let ask = kind.ask();
+    let rays = &timed.casts[chunk.clone()];
     let mut trace = |cast: &Cast| {
         let ray = cast.ray();
-        black_box(ask.hits(tree, &scene.objects, &ray, stack, NoProbe));
+        black_box(timed.ask.hits(tree, &scene.objects, &ray, stack, NoProbe));
     };
     // One ray is not timed: it brings what its neighbours need into the cache, as the chunk before would have done, be it
     // in the sample or not.
@@ -142,9 +191,11 @@ fn seconds(
     started.elapsed().as_secs_f64()
 }
 
-impl Pass {
-    /// The row of this pass, the sample scaled to `all` rays.
-    fn row(&self, all: usize, timing: Timing) -> PassTiming {
+impl Pass<'_, '_> {
+    /// The row of this pass, the sample scaled to all rays of the set.
+    fn row(&self, timing: Timing) -> PassTiming {
+        let chunks = self.timed.chunks.iter();
+        let all: usize = chunks.map(ExactSizeIterator::len).sum();
         let timed: usize = self.chunks.iter().map(ExactSizeIterator::len).sum();
         let scale = if timed == 0 {
             0.0
@@ -156,7 +207,7 @@ impl Pass {
         let total = |seconds: &[f64]| scale * seconds.iter().sum::<f64>();
         let (half_a_s, half_b_s) = (total(a), total(b));
         PassTiming {
-            what: self.kind.name().into(),
+            what: self.timed.what.clone(),
             units: all as u64,
             timed_units: timed as u64,
             seconds: total(&least),
@@ -180,7 +231,7 @@ impl Pass {
             off * off
         };
         let squares: f64 = least.iter().zip(&self.chunks).map(residual).sum();
-        let chunks = all.div_ceil(CHUNK) as f64;
+        let chunks = self.timed.chunks.len() as f64;
         let left_out = 1.0 - drawn / chunks;
         chunks * (squares / (drawn - 1.0) * left_out / drawn).sqrt()
     }
@@ -267,25 +318,38 @@ mod tests {
         pass_s: 1.0,
     };
 
-    fn pass(a: Vec<f64>, b: Vec<f64>) -> Pass {
-        Pass {
-            kind: RayKind::Primary,
-            tree: 0,
-            chunks: (0..a.len()).map(|i| i * CHUNK..(i + 1) * CHUNK).collect(),
-            best: [a, b],
+    fn set(chunks: usize) -> Timed<'static> {
+        Timed {
+            what: "primary".into(),
+            ask: Ask::Nearest,
+            casts: &[],
+            chunks: (0..chunks).map(|i| i * CHUNK..(i + 1) * CHUNK).collect(),
         }
+    }
+
+    fn row(timed: &Timed, a: Vec<f64>, b: Vec<f64>) -> PassTiming {
+        let pass = Pass {
+            timed,
+            tree: 0,
+            chunks: timed.chunks[..a.len()].to_vec(),
+            best: [a, b],
+        };
+        pass.row(TIMING)
     }
 
     #[test]
     fn the_least_of_each_chunk_counts_and_is_scaled() {
-        let row = pass(vec![1.0, 5.0], vec![3.0, 2.0]).row(4 * CHUNK, TIMING);
-        assert_eq!((row.seconds, row.half_a_s, row.half_b_s), (6.0, 12.0, 10.0));
-        assert!(row.disturbed);
+        let half = row(&set(4), vec![1.0, 5.0], vec![3.0, 2.0]);
+        assert_eq!(
+            (half.seconds, half.half_a_s, half.half_b_s),
+            (6.0, 12.0, 10.0)
+        );
+        assert!(half.disturbed);
         // Chunks of 1 and 2 seconds, two of four: N sqrt(s^2 (1 - 1/2) / 2) with s^2 = 1/2.
-        assert!((row.sampling_se_s - 4.0 * 0.125_f64.sqrt()).abs() < 1e-12);
-        let whole = pass(vec![1.0, 2.0], vec![1.01, 2.02]).row(2 * CHUNK, TIMING);
+        assert!((half.sampling_se_s - 4.0 * 0.125_f64.sqrt()).abs() < 1e-12);
+        let whole = row(&set(2), vec![1.0, 2.0], vec![1.01, 2.02]);
         assert_eq!((whole.sampling_se_s, whole.disturbed), (0.0, false));
-        let none = pass(vec![], vec![]).row(0, TIMING);
+        let none = row(&set(0), vec![], vec![]);
         assert_eq!((none.seconds, none.disturbed), (0.0, false));
     }
 
