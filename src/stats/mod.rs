@@ -4,6 +4,7 @@
 //! lines are fitted to the accuracy of the data ([`least_squares`]), and each claim ends in one p-value
 //! ([`normal_p`], [`student_p`], [`binomial_tail`], [`hotelling()`]) that [`holm()`] corrects for its companions.
 //!
+//!
 //! The invariant: every function here is a deterministic function of its arguments and never returns NaN. A quantity
 //! that does not exist (the mean of nothing) is `None`; an argument that can only come from a programming error (a
 //! probability of 2) is a panic with the value in its message; bad data for a regression is an error.
@@ -14,6 +15,7 @@ pub mod hotelling;
 pub mod moments;
 pub mod multiple;
 mod qr;
+pub mod quantile;
 pub mod regression;
 pub mod tails;
 
@@ -21,5 +23,6 @@ pub use binomial::binomial_tail;
 pub use hotelling::{Hotelling, hotelling};
 pub use moments::ScoreMoments;
 pub use multiple::holm;
+pub use quantile::{median, quantile, quantile_of_sorted};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
 pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};
