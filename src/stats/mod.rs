@@ -16,6 +16,7 @@ pub mod moments;
 pub mod multiple;
 mod qr;
 pub mod quantile;
+pub mod rank;
 pub mod regression;
 pub mod tails;
 
@@ -24,5 +25,6 @@ pub use hotelling::{Hotelling, hotelling};
 pub use moments::ScoreMoments;
 pub use multiple::holm;
 pub use quantile::{median, quantile, quantile_of_sorted};
+pub use rank::{Pairs, concordant, kendall_tau_b, spearman_rho};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
 pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};
