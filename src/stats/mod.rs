@@ -10,6 +10,7 @@
 //! probability of 2) is a panic with the value in its message; bad data for a regression is an error.
 
 pub mod binomial;
+pub mod bootstrap;
 mod double_double;
 pub mod hotelling;
 pub mod moments;
@@ -21,6 +22,7 @@ pub mod regression;
 pub mod tails;
 
 pub use binomial::binomial_tail;
+pub use bootstrap::cluster_bootstrap;
 pub use hotelling::{Hotelling, hotelling};
 pub use moments::ScoreMoments;
 pub use multiple::holm;
