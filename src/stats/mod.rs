@@ -11,10 +11,13 @@
 
 pub mod binomial;
 pub mod bootstrap;
+mod cholesky;
 mod double_double;
 pub mod hotelling;
 pub mod moments;
 pub mod multiple;
+pub mod nnls;
+pub mod normal_equations;
 mod qr;
 pub mod quantile;
 pub mod rank;
@@ -26,6 +29,7 @@ pub use bootstrap::cluster_bootstrap;
 pub use hotelling::{Hotelling, hotelling};
 pub use moments::ScoreMoments;
 pub use multiple::holm;
+pub use normal_equations::Normal;
 pub use quantile::{median, quantile, quantile_of_sorted};
 pub use rank::{Pairs, concordant, kendall_tau_b, spearman_rho};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
