@@ -4,6 +4,8 @@
 //! lines are fitted to the accuracy of the data ([`least_squares`]), and each claim ends in one p-value
 //! ([`normal_p`], [`student_p`], [`binomial_tail`], [`hotelling()`]) that [`holm()`] corrects for its companions.
 //!
+//! Costs are fitted by coefficients that are not negative ([`Normal::solve`]), orders are compared by [`kendall_tau_b`] and
+//! [`spearman_rho`], and [`cluster_bootstrap`] gives an interval to what no formula does.
 //!
 //! The invariant: every function here is a deterministic function of its arguments and never returns NaN. A quantity
 //! that does not exist (the mean of nothing) is `None`; an argument that can only come from a programming error (a
@@ -12,6 +14,7 @@
 pub mod binomial;
 pub mod bootstrap;
 mod cholesky;
+pub mod collinearity;
 mod double_double;
 pub mod hotelling;
 pub mod moments;
