@@ -4,6 +4,7 @@ use crate::geom::{Aabb, Axis};
 use crate::kd::curve::{CurvePoint, SplitCurve, for_each_node, split_curve};
 use crate::kd::{StopRule, Tree};
 use crate::scene::Scene;
+use crate::stats::quantile_of_sorted;
 use crate::study::AXES;
 use crate::study::records::{CurveNodeRecord, CurveRecord, MedianRecord};
 
@@ -184,7 +185,7 @@ fn summarise(scene: &str, stop: StopRule, seen: &[Seen]) -> Vec<MedianRecord> {
                 known
             };
             let (even, straddled) = (apart(Theory::Equal), apart(Theory::Straddled));
-            let q = |share: f64| quantile(&straddled, share);
+            let q = |share: f64| quantile_of_sorted(&straddled, share);
             rows.push(MedianRecord {
                 scene: scene.into(),
                 stop: stop.to_string(),
@@ -208,12 +209,6 @@ fn summarise(scene: &str, stop: StopRule, seen: &[Seen]) -> Vec<MedianRecord> {
         }
     }
     rows
-}
-
-/// The value that this share of the sorted values lies at or below.
-fn quantile(sorted: &[f64], share: f64) -> Option<f64> {
-    let rank = (share * sorted.len() as f64).ceil() as usize;
-    sorted.get(rank.saturating_sub(1)).copied()
 }
 
 /// One axis of one node that is drawn.
@@ -346,14 +341,5 @@ mod tests {
         let drawn = place.node(&curve, (0, 0), 2).expect("planes inside");
         assert_eq!(drawn.minimum, 0.25);
         assert!((drawn.minimum_f - 11.0 / 6.0).abs() < 1e-12);
-    }
-
-    #[test]
-    fn quantiles_are_values() {
-        assert_eq!(quantile(&[], 0.5), None);
-        assert_eq!(
-            [0.05, 0.5, 0.95].map(|q| quantile(&[1.0, 2.0, 3.0], q)),
-            [1.0, 2.0, 3.0].map(Some)
-        );
     }
 }
