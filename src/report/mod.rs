@@ -8,6 +8,7 @@ mod axis;
 mod bitmap;
 mod canvas;
 mod cost;
+mod cost_vs_work;
 mod density;
 mod figure;
 mod figure3;
@@ -42,6 +43,7 @@ use std::{fs, io};
 use crate::files::write_atomic;
 
 pub use bitmap::Bitmap;
+pub use cost_vs_work::CostVsWork;
 pub use figure::Figure;
 pub use hits::Hits;
 pub use read::{Content, Run, read_run};
@@ -141,6 +143,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
         Content::Strategies(strategies) => strategies.figures(&run.summary)?,
         Content::Termination(trees) => trees.figures(&run.summary)?,
         Content::SplitCost(nodes) => nodes.figures(&run.summary),
+        Content::CostVsWork(trees) => trees.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -184,6 +187,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
         Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
         Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
+        Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

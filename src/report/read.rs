@@ -7,11 +7,12 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use super::ReportError;
+use super::cost_vs_work::CostVsWork;
 use super::hits::Hits;
 use super::split_cost::SplitCost;
 use super::strategies::Strategies;
 use super::termination::Termination;
-use crate::study::records::{SCHEMA, Summary};
+use crate::study::records::{SCHEMA, Summary, Verdict};
 
 /// What a finished run left behind.
 #[derive(Clone, Debug)]
@@ -35,14 +36,25 @@ pub enum Content {
     Termination(Termination),
     /// Kind `split-cost`.
     SplitCost(SplitCost),
+    /// Kind `cost-vs-work`.
+    CostVsWork(CostVsWork),
 }
 
 impl Run {
+    /// Whether every expectation held, of counts and of seconds.
+    pub fn held(&self) -> bool {
+        let times: &[Verdict] = match &self.content {
+            Content::CostVsWork(trees) => &trees.time_verdicts.verdicts,
+            _ => &[],
+        };
+        self.summary.verdicts.iter().chain(times).all(|v| v.held)
+    }
+
     /// The files of a run of kind `hits-vs-area`.
     pub fn hits(&self) -> Option<&Hits> {
         match &self.content {
             Content::Hits(hits) => Some(hits),
-            Content::Strategies(_) | Content::Termination(_) | Content::SplitCost(_) => None,
+            _ => None,
         }
     }
 }
@@ -71,6 +83,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         "strategies" => Content::Strategies(Strategies::read(dir)?),
         "termination" => Content::Termination(Termination(Strategies::read(dir)?)),
         "split-cost" => Content::SplitCost(SplitCost::read(dir)?),
+        "cost-vs-work" => Content::CostVsWork(CostVsWork::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

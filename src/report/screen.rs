@@ -17,6 +17,7 @@ pub fn study(run: &Run) -> String {
         Content::Strategies(strategies) => strategies::study(run, strategies),
         Content::Termination(trees) => answer(run, &trees.short_table().to_text(WIDTH)),
         Content::SplitCost(nodes) => answer(run, &nodes.screen(WIDTH)),
+        Content::CostVsWork(trees) => answer(run, &trees.screen(WIDTH)),
     }
 }
 

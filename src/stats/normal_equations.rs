@@ -87,9 +87,44 @@ impl Normal {
         rest
     }
 
+    /// The same with these columns alone, in this order.
+    pub fn select(&self, columns: &[usize]) -> Self {
+        let entry = |i: usize, j: usize| self.gram[i.max(j)][i.min(j)];
+        let gram = columns.iter().enumerate().map(|(place, &i)| {
+            let up_to = columns[..=place].iter();
+            up_to.map(|&j| entry(i, j)).collect()
+        });
+        Self {
+            n: self.n,
+            gram: gram.collect(),
+            rhs: columns.iter().map(|&i| self.rhs[i]).collect(),
+            total: self.total,
+        }
+    }
+
     /// The number of rows.
     pub fn n(&self) -> u64 {
         self.n
+    }
+
+    /// The factor s for which s X b is nearest to y: of coefficients whose ratio is given. 0 if X b is zero.
+    ///
+    /// # Panics
+    /// If there is not one coefficient a column.
+    pub fn scale(&self, b: &[f64]) -> f64 {
+        let (found, columns) = (b.len(), self.rhs.len());
+        assert!(
+            found == columns,
+            "{found} coefficients for {columns} columns"
+        );
+        let (mut across, mut square) = (0.0, 0.0);
+        for i in 0..columns {
+            across += b[i] * self.rhs[i].value();
+            for (j, other) in b.iter().enumerate() {
+                square += b[i] * other * self.gram[i.max(j)][i.min(j)].value();
+            }
+        }
+        if square > 0.0 { across / square } else { 0.0 }
     }
 
     /// |y - X b|^2 of these rows for any coefficients, such as those fitted to other rows.
@@ -180,6 +215,24 @@ mod tests {
     use super::*;
     use rand::rngs::ChaCha8Rng;
     use rand::{RngExt, SeedableRng};
+
+    #[test]
+    fn columns_are_selected_and_scaled() {
+        let rows = rows(7, 50);
+        let all = of(&rows);
+        let mut two = Normal::new(2);
+        rows.iter()
+            .for_each(|row| two.push(&[row[2], row[0]], row[3]));
+        assert_eq!(all.select(&[2, 0]), two);
+        // The least squares factor of one column is that column's coefficient.
+        let mut one = Normal::new(1);
+        let b = [2.0, 3e7, 1e-9];
+        let sum = |row: &[f64; 4]| row.iter().zip(b).map(|(x, b)| x * b).sum::<f64>();
+        rows.iter().for_each(|row| one.push(&[sum(row)], row[3]));
+        let wanted = one.rhs[0].value() / one.gram[0][0].value();
+        assert!((all.scale(&b) / wanted - 1.0).abs() < 1e-12);
+        assert_eq!(Normal::new(2).scale(&[1.0, 1.0]), 0.0);
+    }
 
     /// Sums over rows of three columns, of very different sizes, and y.
     fn of(rows: &[[f64; 4]]) -> Normal {

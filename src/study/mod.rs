@@ -1,5 +1,6 @@
 //! Experiments: from a file to cells, from cells to records, from records to verdicts. One folder a kind.
 
+pub mod cost_vs_work;
 pub mod hits;
 pub mod identity;
 pub mod lines;
@@ -63,6 +64,7 @@ pub fn run(
             strategies::run(plan, asked, scenes, store, watcher)?;
         }
         Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher)?,
+        Kind::CostVsWork(asked) => cost_vs_work::run(plan, asked, scenes, store, watcher)?,
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -74,7 +76,7 @@ pub fn run(
 /// Whether the scenes have what the kind of experiment needs; the error names the first that has not.
 pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
     let traces = match plan.kind {
-        Kind::HitsVsArea(_) | Kind::SplitCost(_) => false,
+        Kind::HitsVsArea(_) | Kind::SplitCost(_) | Kind::CostVsWork(_) => false,
         Kind::Strategies(_) | Kind::Termination(_) => true,
     };
     match scenes.iter().find(|scene| traces && scene.look.is_none()) {
@@ -95,5 +97,6 @@ pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
             strategies::describe(plan, asked, scenes)
         }
         Kind::SplitCost(asked) => split_cost::describe(plan, asked, scenes),
+        Kind::CostVsWork(asked) => cost_vs_work::describe(plan, asked, scenes),
     }
 }

@@ -19,6 +19,7 @@ use toml::de::{DeTable, Deserializer};
 use crate::cost::CostModel;
 use crate::kd::Strategy;
 
+use super::cost_vs_work::CostVsWork;
 use super::hits::HitsVsArea;
 use super::record::Record;
 use super::records::{Summary, file_stem};
@@ -66,11 +67,19 @@ pub enum Kind {
     Termination(Strategies),
     /// The split cost across nodes, and the medians.
     SplitCost(SplitCost),
+    /// Predicted counts, counted ones and seconds of many kinds of rays.
+    CostVsWork(CostVsWork),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 4] = ["hits-vs-area", "strategies", "termination", "split-cost"];
+    pub const NAMES: [&str; 5] = [
+        "hits-vs-area",
+        "strategies",
+        "termination",
+        "split-cost",
+        "cost-vs-work",
+    ];
 
     /// The name in files.
     pub fn name(&self) -> &'static str {
@@ -79,6 +88,7 @@ impl Kind {
             Self::Strategies(_) => Self::NAMES[1],
             Self::Termination(_) => Self::NAMES[2],
             Self::SplitCost(_) => Self::NAMES[3],
+            Self::CostVsWork(_) => Self::NAMES[4],
         }
     }
 
@@ -87,6 +97,7 @@ impl Kind {
             Self::HitsVsArea(asked) => asked.check(scenes),
             Self::Strategies(asked) | Self::Termination(asked) => asked.check(scenes),
             Self::SplitCost(asked) => asked.check(scenes),
+            Self::CostVsWork(asked) => asked.check(scenes),
         }
     }
 }
@@ -211,6 +222,7 @@ impl Plan {
             "strategies" => Kind::Strategies(asked(rest)?),
             "termination" => Kind::Termination(asked(rest)?),
             "split-cost" => Kind::SplitCost(asked(rest)?),
+            "cost-vs-work" => Kind::CostVsWork(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -298,7 +310,10 @@ impl Plan {
         self.name += "-quick";
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.controls = None,
-            Kind::Strategies(_) | Kind::Termination(_) | Kind::SplitCost(_) => {}
+            Kind::Strategies(_)
+            | Kind::Termination(_)
+            | Kind::SplitCost(_)
+            | Kind::CostVsWork(_) => {}
         }
     }
 
@@ -308,6 +323,7 @@ impl Plan {
         match &mut self.kind {
             Kind::HitsVsArea(asked) => asked.lines = rule,
             Kind::Strategies(asked) | Kind::Termination(asked) => asked.lines = rule,
+            Kind::CostVsWork(asked) => asked.lines = rule,
             Kind::SplitCost(asked) => {
                 if let Some(octree) = &mut asked.octree {
                     octree.lines = lines;
@@ -335,7 +351,7 @@ impl Plan {
                     slice.scene = name.into();
                 }
             }
-            Kind::HitsVsArea(_) => {}
+            Kind::HitsVsArea(_) | Kind::CostVsWork(_) => {}
         }
     }
 }

@@ -90,7 +90,7 @@ impl<'a> Timed<'a> {
 }
 
 /// One set of rays in one tree: the least seconds of each chunk, in the even and the odd rounds.
-struct Pass<'t, 'r> {
+pub struct Pass<'t, 'r> {
     timed: &'t Timed<'r>,
     /// Which tree.
     tree: usize,
@@ -98,34 +98,53 @@ struct Pass<'t, 'r> {
     best: [Vec<f64>; 2],
 }
 
-/// Time the tracing of every set of rays through every tree, on this thread. `tick` is told after each round. Gives rows
-/// without the name of their cell, tree by tree and set by set.
-pub fn trace_times(
+impl<'t, 'r> Pass<'t, 'r> {
+    /// Of these chunks of the set, in tree number `tree`.
+    pub fn new(timed: &'t Timed<'r>, tree: usize, mut chunks: Vec<Range<usize>>) -> Self {
+        // In the order of the rays, as a renderer would go.
+        chunks.sort_by_key(|chunk| chunk.start);
+        let never = vec![f64::INFINITY; chunks.len()];
+        Self {
+            timed,
+            tree,
+            chunks,
+            best: [never.clone(), never],
+        }
+    }
+}
+
+/// Every set in every tree, on a random sample where all of it would take longer than `pass_s` seconds.
+pub fn sampled<'t, 'r>(
     scene: &Scene,
     trees: &[Tree],
-    sets: &[Timed],
-    timing: Timing,
+    sets: &'t [Timed<'r>],
+    pass_s: f64,
     seed: u64,
-    mut tick: impl FnMut(),
-) -> Vec<Vec<PassTiming>> {
+) -> Vec<Pass<'t, 'r>> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut passes = Vec::new();
     for timed in sets {
         let mut order = timed.chunks.clone();
         order.shuffle(&mut random);
         for (number, tree) in trees.iter().enumerate() {
-            let mut chunks = sample(scene, tree, timed, &order, timing.pass_s);
-            // In the order of the rays, as a renderer would go.
-            chunks.sort_by_key(|chunk| chunk.start);
-            let never = vec![f64::INFINITY; chunks.len()];
-            passes.push(Pass {
-                timed,
-                tree: number,
-                chunks,
-                best: [never.clone(), never],
-            });
+            let chunks = sample(scene, tree, timed, &order, pass_s);
+            passes.push(Pass::new(timed, number, chunks));
         }
     }
+    passes
+}
+
+/// Time these passes on this thread, in rounds of a fresh random order. `tick` is told after each round. Gives rows without
+/// the name of their cell, tree by tree and set by set.
+pub fn trace_times(
+    scene: &Scene,
+    trees: &[Tree],
+    mut passes: Vec<Pass>,
+    timing: Timing,
+    seed: u64,
+    mut tick: impl FnMut(),
+) -> Vec<Vec<PassTiming>> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut order: Vec<_> = (0..passes.len()).collect();
     for round in 0..timing.rounds {
         order.shuffle(&mut random);
@@ -328,12 +347,8 @@ mod tests {
     }
 
     fn row(timed: &Timed, a: Vec<f64>, b: Vec<f64>) -> PassTiming {
-        let pass = Pass {
-            timed,
-            tree: 0,
-            chunks: timed.chunks[..a.len()].to_vec(),
-            best: [a, b],
-        };
+        let mut pass = Pass::new(timed, 0, timed.chunks[..a.len()].to_vec());
+        pass.best = [a, b];
         pass.row(TIMING)
     }
 

@@ -28,7 +28,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 6] = [
+const EXPERIMENTS: [(&str, &str); 7] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -50,6 +50,7 @@ const EXPERIMENTS: [(&str, &str); 6] = [
         "split-cost",
         include_str!("../../../experiments/split-cost.toml"),
     ),
+    ("cost", include_str!("../../../experiments/cost.toml")),
 ];
 
 /// So many of them, the first ones, are the default study.
@@ -186,8 +187,7 @@ fn run_loaded(
     if common.json {
         run::print_json(&runs)?;
     }
-    let mut verdicts = runs.iter().flat_map(|run| &run.summary.verdicts);
-    Ok(verdicts.all(|v| v.held))
+    Ok(runs.iter().all(Run::held))
 }
 
 /// `validate scene`: the same measurement on one scene, every strategy.

@@ -4,15 +4,19 @@
 //! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] and [`PassTiming`], both
 //! rows of `timings.csv`, hold times, so every other file is byte-identical for any number of threads.
 
+mod calibration;
 mod split_cost;
 mod strategies;
 mod work;
 
 use serde::{Deserialize, Serialize};
 
+pub use calibration::{
+    ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, TimeVerdicts,
+};
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
-pub use work::WorkRecord;
+pub use work::{StepRecord, WorkRecord};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 2;

@@ -60,3 +60,54 @@ pub struct WorkRecord {
     /// Standard error of `c_counted`.
     pub c_se: Option<f64>,
 }
+
+/// What the timed rays of a set did in a tree, step by step: sums over these rays. A row of `steps.csv`.
+///
+/// Integers that depend on tree, rays and their order alone. "Near" tests are those of objects whose own box the ray crosses:
+/// the others end early.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StepRecord {
+    /// Identity of the tree's cell.
+    pub cell: String,
+    /// Scene of the tree.
+    pub scene: String,
+    /// Strategy of the tree.
+    pub strategy: String,
+    /// Stop rule of the tree.
+    pub stop: String,
+    /// The set of rays.
+    pub rays: String,
+    /// Rays of it that were timed, and counted here.
+    pub cast: u64,
+    /// Inner nodes visited.
+    pub inner_visits: u64,
+    /// Leaves visited.
+    pub leaf_visits: u64,
+    /// Leaves without an object visited.
+    pub empty_leaf_visits: u64,
+    /// Tests of triangles.
+    pub triangle_tests: u64,
+    /// Tests of spheres.
+    pub sphere_tests: u64,
+    /// Tests of cones and cylinders.
+    pub cone_tests: u64,
+    /// Tests of polygons.
+    pub polygon_tests: u64,
+    /// Near tests of triangles.
+    pub near_triangles: u64,
+    /// Near tests of spheres.
+    pub near_spheres: u64,
+    /// Near tests of cones and cylinders.
+    pub near_cones: u64,
+    /// Near tests of polygons.
+    pub near_polygons: u64,
+    /// Corners of the polygons of near tests.
+    pub near_corners: u64,
+    /// Branches that the predictor gshare gets wrong.
+    pub surprises: u64,
+    /// Cache lines not found in a cache of 32 KiB.
+    pub first_misses: u64,
+    /// Of these, lines not found in one of 1 MiB either.
+    pub second_misses: u64,
+}

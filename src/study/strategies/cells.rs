@@ -172,7 +172,8 @@ pub fn measure(
         let rays = &traced.rays.of(kind).rays;
         Timed::all(kind.name().into(), kind.ask(), rays)
     });
-    let passes = timing::trace_times(scene, &trees, &sets, asked.timing, plan.seed, || {
+    let passes = timing::sampled(scene, &trees, &sets, asked.timing.pass_s, plan.seed);
+    let passes = timing::trace_times(scene, &trees, passes, asked.timing, plan.seed, || {
         watcher.done(cells.len() as u64);
     });
     keep_times(store, cells, builds, passes)?;

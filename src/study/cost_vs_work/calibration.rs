@@ -1,0 +1,350 @@
+//! From times to constants: the models that are compared, what each predicts of scenes left out, and whether that is as good
+//! as was expected.
+
+use std::collections::HashMap;
+
+use crate::stats::cluster_bootstrap;
+use crate::study::records::{
+    ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PassTiming, PredictionRecord,
+    TimeVerdicts, Verdict,
+};
+use crate::study::store::{Store, StoreError};
+use crate::study::{Plan, Watcher};
+
+use super::asked::CostVsWork;
+use super::cells::Measured;
+use super::choice::{CHOSEN, choose};
+use super::fit::{Errors, Fitter, Model, Orders, time};
+use super::terms::{Row, Term};
+
+/// Fewest groups of scenes for terms to be chosen without one and judged on it.
+const FEWEST_GROUPS: usize = 3;
+
+/// Level of the intervals of constants.
+const LEVEL: f64 = 0.95;
+
+/// The model that areas can be put into.
+const TWO: &str = "n_K, n_t";
+
+/// Models whose terms are given.
+fn given() -> Vec<Model> {
+    let ratio = |name: &str, c_k: f64, c_t: f64| Model {
+        ratio: Some(vec![c_k, c_t]),
+        ..Model::of(name, &[Term::Inner, Term::Test])
+    };
+    vec![
+        Model::of("n_t", &[Term::Test]),
+        ratio("15:20 (Wald & Havran 2006)", 15.0, 20.0),
+        ratio("1:80 (pbrt)", 1.0, 80.0),
+        ratio("1.2:1 (Aila 2013)", 1.2, 1.0),
+        Model::of(TWO, &[Term::Inner, Term::Test]),
+        Model::of("n_K, n_B, n_t", &[Term::Inner, Term::Leaf, Term::Test]),
+    ]
+}
+
+/// What was fitted.
+struct Calibrated {
+    models: Vec<ModelRecord>,
+    constants: Vec<ConstantRecord>,
+    choices: Vec<ChoiceRecord>,
+    predictions: Vec<PredictionRecord>,
+    orders: Vec<OrderOfTimesRecord>,
+}
+
+/// Fit constants to the seconds of a run and write what came of it; of too few scenes nothing.
+pub fn write(
+    plan: &Plan,
+    asked: &CostVsWork,
+    measured: &[Measured],
+    times: &[PassTiming],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), StoreError> {
+    let rows = rows(measured, times);
+    let fitter = Fitter::new(&rows, Row::group);
+    let found = if fitter.groups.len() < FEWEST_GROUPS {
+        watcher.note(&format!(
+            "constants are fitted to at least {FEWEST_GROUPS} scenes of different names, and judged on those left out; these \
+             are {}",
+            fitter.groups.len()
+        ));
+        Calibrated {
+            models: Vec::new(),
+            constants: Vec::new(),
+            choices: Vec::new(),
+            predictions: Vec::new(),
+            orders: Vec::new(),
+        }
+    } else {
+        watcher.begin("calibration");
+        calibrate(plan, asked, &fitter)
+    };
+    store.write_rows("times-models.csv", &found.models)?;
+    store.write_rows("times-constants.csv", &found.constants)?;
+    store.write_rows("times-choice.csv", &found.choices)?;
+    store.write_rows("times-predictions.csv", &found.predictions)?;
+    store.write_rows("times-order.csv", &found.orders)?;
+    let verdicts = TimeVerdicts {
+        verdicts: verdicts(asked, &found.models),
+    };
+    let mut json = serde_json::to_vec_pretty(&verdicts).expect("verdicts are plain data");
+    json.push(b'\n');
+    store.write("times-verdicts.json", &json)
+}
+
+/// Counts and seconds of every set of rays in every tree, where rays were timed.
+fn rows<'r>(measured: &'r [Measured], times: &[PassTiming]) -> Vec<Row<'r>> {
+    let times: HashMap<(&str, &str), &PassTiming> = times
+        .iter()
+        .map(|row| ((row.cell.as_str(), row.what.as_str()), row))
+        .collect();
+    let all = measured.iter().flat_map(|tree| {
+        let pairs = tree.work.iter().zip(&tree.steps);
+        pairs.map(move |(work, steps)| (&tree.record, work, steps))
+    });
+    all.filter_map(|(cell, work, steps)| {
+        let timed = times.get(&(work.cell.as_str(), work.rays.as_str()))?;
+        let ns = 1e9 * timed.seconds / timed.units as f64;
+        (ns > 0.0 && steps.cast > 0).then_some(Row {
+            cell,
+            work,
+            steps,
+            ns,
+            disturbed: timed.disturbed,
+        })
+    })
+    .collect()
+}
+
+fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
+    let rows = fitter.rows;
+    let single = Fitter::new(rows, |row| &row.work.scene);
+    let mut models = Vec::new();
+    let mut two = Vec::new();
+    for model in given() {
+        let by_group = fitter.left_out(&[], |_| model.clone());
+        let by_scene = single.left_out(&[], |_| model.clone());
+        models.extend(record(&model, "group", rows, &by_group));
+        models.extend(record(&model, "scene", rows, &by_scene));
+        if model.name == TWO {
+            two = by_group;
+        }
+    }
+
+    // Terms are chosen without the group they are judged on; the model that is shown is chosen from all.
+    let mut choices = Vec::new();
+    let model = choose(fitter, &[], |row| choices.push(row));
+    let chosen = fitter.left_out(&[], |out| choose(fitter, out, |_| ()));
+    models.extend(record(&model, "group", rows, &chosen));
+    let by_scene = single.left_out(&[], |_| model.clone());
+    models.extend(record(&model, "scene", rows, &by_scene));
+
+    let shown = given().into_iter().filter(|model| model.ratio.is_none());
+    let shown = shown.filter(|model| model.terms.len() > 1).chain([model]);
+    let constants = shown.flat_map(|model| constants(plan, asked, fitter, &model));
+    let constants = constants.collect();
+
+    let areas = areas(fitter);
+    let predictions = rows.iter().zip(&areas).zip(two.iter().zip(&chosen));
+    let predictions = predictions.map(|((row, areas), (two, chosen))| PredictionRecord {
+        cell: row.work.cell.clone(),
+        scene: row.work.scene.clone(),
+        group: row.group().into(),
+        strategy: row.work.strategy.clone(),
+        stop: row.work.stop.clone(),
+        rays: row.work.rays.clone(),
+        measured_ns: row.ns,
+        disturbed: row.disturbed,
+        areas_ns: *areas,
+        two_ns: *two,
+        chosen_ns: *chosen,
+    });
+    let predictions = predictions.collect();
+    Calibrated {
+        models,
+        constants,
+        choices,
+        predictions,
+        orders: orders(plan, asked, rows, &areas, &two, &chosen),
+    }
+}
+
+fn record(model: &Model, left_out: &str, rows: &[Row], predicted: &[f64]) -> Option<ModelRecord> {
+    let errors = Errors::of(rows, predicted)?;
+    let orders = Orders::of(rows, predicted, |_| true);
+    Some(ModelRecord {
+        model: model.name.clone(),
+        constants: model.constants() as u64,
+        left_out: left_out.into(),
+        rows: rows.len() as u64,
+        error_median: errors.median,
+        error_mean: errors.mean,
+        error_p90: errors.p90,
+        error_max: errors.max,
+        tau: orders.tau,
+        pairs_right: orders.pairs_right,
+        regret_mean: orders.regret_mean,
+        regret_max: orders.regret_max,
+    })
+}
+
+/// The constants of a model fitted to all groups.
+fn constants(
+    plan: &Plan,
+    asked: &CostVsWork,
+    fitter: &Fitter,
+    model: &Model,
+) -> Vec<ConstantRecord> {
+    let groups = fitter.groups.len();
+    let all = fitter.constants(model, 0..groups);
+    let draws = asked.calibration.draws as usize;
+    let intervals = cluster_bootstrap(groups, draws, plan.seed, LEVEL, |drawn| {
+        Some(fitter.constants(model, drawn.iter().copied()))
+    });
+    let inflation = fitter.inflation(model);
+    let share = |number: usize| {
+        let (term, ns) = (model.terms[number], all[number]);
+        let shares = fitter.rows.iter().map(|row| {
+            let whole = time(model, &all, row);
+            if whole > 0.0 {
+                ns * term.of(row) / whole
+            } else {
+                0.0
+            }
+        });
+        shares.sum::<f64>() / fitter.rows.len() as f64
+    };
+    let constant = |number: usize| ConstantRecord {
+        model: model.name.clone(),
+        term: model.terms[number].name(),
+        ns: all[number],
+        lo: intervals[number].map(|(lo, _)| lo),
+        hi: intervals[number].map(|(_, hi)| hi),
+        inflation: inflation[number],
+        share: share(number),
+    };
+    (0..model.terms.len()).map(constant).collect()
+}
+
+/// Nanoseconds of every row by areas alone: constants of n_K and n_t, fitted to counts without the row's group, times what
+/// areas predict.
+fn areas(fitter: &Fitter) -> Vec<f64> {
+    let model = Model::of(TWO, &[Term::Inner, Term::Test]);
+    let mut predicted = vec![0.0; fitter.rows.len()];
+    for (group, numbers) in fitter.groups.iter().enumerate() {
+        let others = (0..fitter.groups.len()).filter(|other| *other != group);
+        let constants = fitter.constants(&model, others);
+        for &number in numbers {
+            let work = fitter.rows[number].work;
+            predicted[number] =
+                constants[0] * work.n_k_predicted + constants[1] * work.n_t_predicted;
+        }
+    }
+    predicted
+}
+
+/// How well costs of every origin put trees into the order of their times.
+fn orders(
+    plan: &Plan,
+    asked: &CostVsWork,
+    rows: &[Row],
+    areas: &[f64],
+    two: &[f64],
+    chosen: &[f64],
+) -> Vec<OrderOfTimesRecord> {
+    let c = plan.cost;
+    let given = format!("{}:{}:{}", c.c_k, c.c_b, c.c_t);
+    let of = |cost: fn(&Row) -> f64| rows.iter().map(cost).collect::<Vec<f64>>();
+    let (by_areas, by_counts) = (of(|r| r.work.c_predicted), of(|r| r.work.c_counted));
+    let costs = [
+        (format!("areas, {given}"), &by_areas[..]),
+        (format!("areas, {TWO} calibrated"), areas),
+        (format!("counts, {given}"), &by_counts[..]),
+        (format!("counts, {TWO} calibrated"), two),
+        (format!("counts, {CHOSEN}"), chosen),
+    ];
+    let mut records = Vec::new();
+    let sets = asked.rays.iter().map(ToString::to_string);
+    for rays in sets.chain(["all".into()]) {
+        for (cost, values) in &costs {
+            let wanted = |row: &Row| rays == "all" || row.work.rays == rays;
+            let found = Orders::of(rows, values, wanted);
+            if found.scenes > 0 {
+                records.push(OrderOfTimesRecord {
+                    rays: rays.clone(),
+                    cost: cost.clone(),
+                    scenes: found.scenes,
+                    tau: found.tau,
+                    pairs_right: found.pairs_right,
+                    regret_mean: found.regret_mean,
+                    regret_max: found.regret_max,
+                    regret_scene: found.worst,
+                });
+            }
+        }
+    }
+    records
+}
+
+/// Whether scenes left out are predicted as well as was expected.
+fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
+    let own = |row: &&ModelRecord| row.model == CHOSEN && row.left_out == "group";
+    let Some(found) = models.iter().find(own) else {
+        return Vec::new();
+    };
+    let expect = asked.expect;
+    let judge = |name: &str, value: f64, bound: Option<f64>, least: bool, what: String| {
+        let bound = bound?;
+        let held = if least {
+            value >= bound
+        } else {
+            value <= bound
+        };
+        let side = if least { "at least" } else { "at most" };
+        Some(Verdict {
+            name: name.into(),
+            held,
+            message: format!("{what}, {side} {bound} wanted"),
+        })
+    };
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let all = [
+        judge(
+            "time-error",
+            found.error_median,
+            expect.error_median,
+            false,
+            format!(
+                "times of all sizes of a scene left out, predicted from chosen terms: median relative error {}, mean {}, \
+                 worst {}",
+                percent(found.error_median),
+                percent(found.error_mean),
+                percent(found.error_max)
+            ),
+        ),
+        judge(
+            "time-order",
+            found.tau,
+            expect.tau,
+            true,
+            format!(
+                "Kendall's tau between predicted and measured times of a scene's trees: mean {:.3}; {} of pairs in the right \
+                 order",
+                found.tau,
+                percent(found.pairs_right)
+            ),
+        ),
+        judge(
+            "time-regret",
+            found.regret_mean,
+            expect.regret,
+            false,
+            format!(
+                "the tree of least predicted time takes {} more than the fastest in the mean, {} at worst",
+                percent(found.regret_mean),
+                percent(found.regret_max)
+            ),
+        ),
+    ];
+    all.into_iter().flatten().collect()
+}

@@ -1,0 +1,257 @@
+//! The trees of one scene: counted and timed together, as they share the rays.
+
+use std::ops::Range;
+
+use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+
+use crate::kd::{Rules, StopRule, Strategy, Tree, predict};
+use crate::scene::Scene;
+use crate::study::hits::cell::{CellPlan, compare, plant};
+use crate::study::identity::{digest, whole};
+use crate::study::ray_sets::{Number, Rays, gather};
+use crate::study::records::{CellRecord, PassTiming, StepRecord, WorkRecord};
+use crate::study::store::{Store, StoreError, TIMINGS};
+use crate::study::timing::{CHUNK, Pass, Timed, blank, trace_times};
+use crate::study::{Plan, RunError, Watcher, timing, work};
+
+use super::asked::CostVsWork;
+use super::steps;
+
+/// What was found of a tree, its seconds aside.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Measured {
+    /// The row of `cells.csv`.
+    pub record: CellRecord,
+    /// The rows of `work.csv`, a set of rays each.
+    pub work: Vec<WorkRecord>,
+    /// The rows of `steps.csv`, likewise.
+    pub steps: Vec<StepRecord>,
+}
+
+/// The trees of a scene in canonical order: stop rules, then strategies.
+pub fn of_scene<'a>(plan: &Plan, asked: &CostVsWork, scene: &'a Scene) -> Vec<CellPlan<'a>> {
+    let rules = |stop: StopRule, strategy: Strategy| Rules {
+        strategy,
+        stop,
+        cost: plan.cost,
+        clipped: asked.clipped,
+    };
+    let stops = asked.stops.iter();
+    let all = stops.flat_map(|&stop| asked.strategies.iter().map(move |&s| rules(stop, s)));
+    let all: Vec<Rules> = all.collect();
+    let mut plans = CellPlan::of_scene(scene, &all, plan.seed, asked.lines);
+    // What the rays depend on besides the boxes.
+    let seen = whole(scene);
+    for plan in &mut plans {
+        let identity = format!(
+            "{} {seen} {:?} {} {} {} {}",
+            plan.id, asked.rays, asked.number, asked.pixels, asked.timing.rays, asked.timing.work
+        );
+        plan.id = digest(identity.as_bytes());
+    }
+    plans
+}
+
+/// How the passes are timed: no sampling but that of [`chunks`], no builds.
+fn rule(asked: &CostVsWork) -> timing::Timing {
+    timing::Timing {
+        rounds: asked.timing.rounds,
+        builds: asked.timing.rounds,
+        pass_s: f64::INFINITY,
+    }
+}
+
+/// The finished trees of a scene, if all of them and their seconds are there: trees are timed together or not at all, and
+/// seconds count if they were measured as asked, by this very program.
+pub fn finished(
+    asked: &CostVsWork,
+    store: &Store,
+    cells: &[CellPlan],
+    times: &[PassTiming],
+) -> Option<Vec<Measured>> {
+    let same = blank(rule(asked), false);
+    let one = |cell: &CellPlan| {
+        let found: Measured = store.finished(&cell.id)?;
+        let own = times.iter().filter(|row| {
+            row.cell == cell.id && (row.rounds, &row.revision) == (same.rounds, &same.revision)
+        });
+        (own.count() == found.work.len()).then_some(found)
+    };
+    cells.iter().map(one).collect()
+}
+
+/// Rays that follow each other in what is timed: so many of them share caches as in the whole set.
+const RUN: usize = 512;
+
+/// The chunks of a set that are timed in a tree in which a ray takes so much work: runs of rays, spread evenly over the set.
+fn chunks(asked: &CostVsWork, rays: usize, work_per_ray: f64) -> Vec<Range<usize>> {
+    let affordable = (asked.timing.work as f64 / work_per_ray.max(1.0)) as usize;
+    let wanted = (asked.timing.rays as usize)
+        .min(affordable)
+        .clamp(RUN, rays.max(RUN));
+    let all = rays.div_ceil(RUN);
+    let runs = wanted.div_ceil(RUN).min(all);
+    let run = |number: usize| {
+        let start = number * all / runs * RUN;
+        start..(start + RUN).min(rays)
+    };
+    let cut = |run: Range<usize>| {
+        let end = run.end;
+        run.step_by(CHUNK)
+            .map(move |start| start..(start + CHUNK).min(end))
+    };
+    (0..runs).map(run).flat_map(cut).collect()
+}
+
+/// Count and time the trees of a scene.
+pub fn measure(
+    plan: &Plan,
+    asked: &CostVsWork,
+    cells: &[CellPlan],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<Vec<Measured>, RunError> {
+    let Some(CellPlan { scene, .. }) = cells.first() else {
+        return Ok(Vec::new());
+    };
+    watcher.begin(&format!("{} rays", scene.name));
+    let bug = |place: String| move |fault: String| RunError::Bug { place, fault };
+    let number = Number {
+        rays: asked.number,
+        pixels: asked.pixels,
+    };
+    let sets = gather(scene, &asked.rays, number, plan.seed).map_err(bug(scene.name.clone()))?;
+    let timed: Vec<Timed> = sets
+        .iter()
+        .map(|rays| Timed::all(rays.of.to_string(), rays.of.ask(), &rays.casts))
+        .collect();
+    let mut passes = Vec::new();
+    let mut measured = Vec::new();
+    let mut trees: Vec<Tree> = Vec::new();
+    for cell in cells {
+        let CellPlan { id, rules, .. } = cell;
+        let place = format!("{} {} {}", scene.name, rules.strategy, rules.stop);
+        watcher.begin(&place);
+        let (tree, _) = plant(scene, rules).map_err(bug(place.clone()))?;
+        let found = match store.finished(id) {
+            Some(found) => found,
+            None => {
+                let found = count(asked, cell, &tree, &sets).map_err(bug(place))?;
+                store.save(id, &found)?;
+                found
+            }
+        };
+        for ((timed, rays), row) in timed.iter().zip(&sets).zip(&found.work) {
+            let chunks = chunks(asked, rays.casts.len(), per_ray(row));
+            passes.push(Pass::new(timed, trees.len(), chunks));
+        }
+        measured.push(found);
+        trees.push(tree);
+        watcher.done(1);
+    }
+    watcher.begin(&format!("{} times", scene.name));
+    let rows = trace_times(scene, &trees, passes, rule(asked), plan.seed, || {
+        watcher.done(cells.len() as u64);
+    });
+    keep_times(store, cells, rows)?;
+    Ok(measured)
+}
+
+/// Visits and tests of a ray.
+fn per_ray(row: &WorkRecord) -> f64 {
+    row.n_k_counted + row.n_b_counted + row.n_t_counted
+}
+
+/// Count lines and all sets of rays through a tree, and the steps of those that are timed.
+fn count(
+    asked: &CostVsWork,
+    cell: &CellPlan,
+    tree: &Tree,
+    sets: &[Rays],
+) -> Result<Measured, String> {
+    let prediction = predict(tree);
+    let record = compare(cell, tree, &prediction, &())?.record;
+    let objects = &cell.scene.objects;
+    let one = |rays: &Rays| {
+        let row = work::count(tree, objects, rays).record(cell, rays, cell.rules.cost, &prediction);
+        let chunks = chunks(asked, rays.casts.len(), per_ray(&row));
+        let named = StepRecord {
+            cell: row.cell.clone(),
+            scene: row.scene.clone(),
+            strategy: row.strategy.clone(),
+            stop: row.stop.clone(),
+            rays: row.rays.clone(),
+            ..StepRecord::default()
+        };
+        let steps = steps::count(cell.scene, tree, rays, &chunks, named);
+        (row, steps)
+    };
+    let (work, steps) = sets.par_iter().map(one).unzip();
+    Ok(Measured {
+        record,
+        work,
+        steps,
+    })
+}
+
+/// Put the seconds of a scene's trees in place of older ones; rows of other runs stay.
+fn keep_times(
+    store: &Store,
+    cells: &[CellPlan],
+    passes: Vec<Vec<PassTiming>>,
+) -> Result<(), StoreError> {
+    let mut rows: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    rows.retain(|row| cells.iter().all(|cell| cell.id != row.cell));
+    for (cell, passes) in cells.iter().zip(passes) {
+        rows.extend(passes.into_iter().map(|row| PassTiming {
+            cell: cell.id.clone(),
+            scene: cell.scene.name.clone(),
+            strategy: cell.rules.strategy.name(),
+            stop: cell.rules.stop.to_string(),
+            ..row
+        }));
+    }
+    store.write_rows(TIMINGS, rows)?;
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::cost_vs_work::asked::{Calibration, Expect, Timing};
+
+    #[test]
+    fn runs_are_spread_and_heavy_trees_have_fewer() {
+        let asked = CostVsWork {
+            strategies: vec![],
+            stops: vec![],
+            clipped: false,
+            lines: crate::study::LineRule::exactly(2048).expect("a rule"),
+            rays: vec![],
+            number: 1,
+            pixels: 1,
+            timing: Timing {
+                rays: 1024,
+                work: 100_000,
+                rounds: 2,
+            },
+            calibration: Calibration { draws: 1 },
+            expect: Expect {
+                family: 0.01,
+                error_median: None,
+                tau: None,
+                regret: None,
+            },
+        };
+        let runs = |rays, work| {
+            let chunks = chunks(&asked, rays, work);
+            let all: usize = chunks.iter().map(ExactSizeIterator::len).sum();
+            (chunks[0].start, chunks[chunks.len() - 1].end, all)
+        };
+        assert_eq!(runs(4096, 10.0), (0, 2048 + 512, 1024));
+        assert_eq!(runs(4096, 1000.0), (0, 512, 512));
+        assert_eq!(runs(100, 10.0), (0, 100, 100));
+        assert_eq!(runs(700, 1.0), (0, 700, 700));
+    }
+}

@@ -1,0 +1,203 @@
+//! Constants fitted to times, and how well they predict scenes that were left out.
+//!
+//! Non-negative least squares of relative errors: every row is divided by its time, so that a cheap tree counts as much as a
+//! dear one. What is judged was never fitted.
+
+use std::collections::BTreeMap;
+
+use crate::stats::{Normal, kendall_tau_b, median, quantile};
+
+use super::terms::{Row, Term};
+
+/// A model: terms with a constant each, or terms whose ratio is given and only their scale is fitted.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Model {
+    /// Its name.
+    pub name: String,
+    /// Its terms.
+    pub terms: Vec<Term>,
+    /// Given ratio of the constants, if it is.
+    pub ratio: Option<Vec<f64>>,
+}
+
+impl Model {
+    /// A constant for each term.
+    pub fn of(name: &str, terms: &[Term]) -> Self {
+        Self {
+            name: name.into(),
+            terms: terms.into(),
+            ratio: None,
+        }
+    }
+
+    /// Constants that are fitted.
+    pub fn constants(&self) -> usize {
+        self.ratio.as_ref().map_or(self.terms.len(), |_| 1)
+    }
+}
+
+/// Rows with their sums by group, so that any model can be fitted to any groups.
+pub struct Fitter<'a> {
+    /// The rows.
+    pub rows: &'a [Row<'a>],
+    /// The groups, and which rows are theirs.
+    pub groups: Vec<Vec<usize>>,
+    /// The normal equations of all terms, of each group.
+    sums: Vec<Normal>,
+}
+
+impl<'a> Fitter<'a> {
+    /// Rows parted into groups by a name.
+    pub fn new(rows: &'a [Row<'a>], by: impl for<'r> Fn(&'r Row<'a>) -> &'r str) -> Self {
+        let mut groups: BTreeMap<&str, Vec<usize>> = BTreeMap::new();
+        for (number, row) in rows.iter().enumerate() {
+            groups.entry(by(row)).or_default().push(number);
+        }
+        let groups: Vec<Vec<usize>> = groups.into_values().collect();
+        let sums = groups.iter().map(|numbers| {
+            let mut sum = Normal::new(Term::ALL.len());
+            for row in numbers.iter().map(|&number| &rows[number]) {
+                let relative = Term::ALL.map(|term| term.of(row) / row.ns);
+                sum.push(&relative, 1.0);
+            }
+            sum
+        });
+        let sums = sums.collect();
+        Self { rows, groups, sums }
+    }
+
+    /// The constants of a model fitted to these groups, one that is named twice counting twice.
+    pub fn constants(&self, model: &Model, groups: impl IntoIterator<Item = usize>) -> Vec<f64> {
+        let columns: Vec<usize> = model.terms.iter().map(|term| term.column()).collect();
+        let mut sum = Normal::new(columns.len());
+        for group in groups {
+            sum.merge(&self.sums[group].select(&columns));
+        }
+        match &model.ratio {
+            None => sum.solve(),
+            Some(ratio) => {
+                let scale = sum.scale(ratio);
+                ratio.iter().map(|c| scale * c).collect()
+            }
+        }
+    }
+
+    /// All groups but some.
+    fn others(&self, out: &[usize]) -> impl Iterator<Item = usize> {
+        (0..self.groups.len()).filter(move |group| !out.contains(group))
+    }
+
+    /// Variance inflation of each constant, from all rows.
+    pub fn inflation(&self, model: &Model) -> Vec<Option<f64>> {
+        let columns: Vec<usize> = model.terms.iter().map(|term| term.column()).collect();
+        let mut sum = Normal::new(columns.len());
+        for own in &self.sums {
+            sum.merge(&own.select(&columns));
+        }
+        sum.variance_inflation()
+    }
+
+    /// Nanoseconds of every row, predicted by a model fitted without its group (and without the groups `out`; rows of these
+    /// are not predicted and have 0). `choose` gives the model to fit to what is left when these groups are out.
+    pub fn left_out(&self, out: &[usize], choose: impl Fn(&[usize]) -> Model) -> Vec<f64> {
+        let mut predicted = vec![0.0; self.rows.len()];
+        for group in self.others(out) {
+            let mut left_out = out.to_vec();
+            left_out.push(group);
+            let model = choose(&left_out);
+            let constants = self.constants(&model, self.others(&left_out));
+            for &number in &self.groups[group] {
+                predicted[number] = time(&model, &constants, &self.rows[number]);
+            }
+        }
+        predicted
+    }
+
+    /// Mean relative error of the rows of every group, where it was predicted.
+    pub fn errors(&self, predicted: &[f64], out: &[usize]) -> Vec<f64> {
+        let of = |group: usize| {
+            let own = self.groups[group].iter();
+            let error = |&number: &usize| (predicted[number] / self.rows[number].ns - 1.0).abs();
+            own.map(error).sum::<f64>() / self.groups[group].len() as f64
+        };
+        self.others(out).map(of).collect()
+    }
+}
+
+/// Nanoseconds of a row.
+pub fn time(model: &Model, constants: &[f64], row: &Row) -> f64 {
+    let parts = model.terms.iter().zip(constants);
+    parts.map(|(term, c)| c * term.of(row)).sum()
+}
+
+/// How far predictions are from the times.
+pub struct Errors {
+    pub median: f64,
+    pub mean: f64,
+    pub p90: f64,
+    pub max: f64,
+}
+
+impl Errors {
+    /// Of every row's prediction; `None` without rows.
+    pub fn of(rows: &[Row], predicted: &[f64]) -> Option<Self> {
+        let errors = rows.iter().zip(predicted);
+        let errors: Vec<f64> = errors.map(|(row, p)| (p / row.ns - 1.0).abs()).collect();
+        Some(Self {
+            median: median(&errors)?,
+            mean: errors.iter().sum::<f64>() / errors.len() as f64,
+            p90: quantile(&errors, 0.9)?,
+            max: errors.iter().copied().fold(0.0, f64::max),
+        })
+    }
+}
+
+/// How well a cost orders the trees of each scene, under each set of rays.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Orders {
+    /// Scenes times sets with at least two trees of different time and cost.
+    pub scenes: u64,
+    pub tau: f64,
+    pub pairs_right: f64,
+    pub regret_mean: f64,
+    pub regret_max: f64,
+    /// The scene of the worst regret.
+    pub worst: String,
+}
+
+impl Orders {
+    /// Of the rows that are wanted, by a cost.
+    pub fn of(rows: &[Row], cost: &[f64], wanted: impl Fn(&Row) -> bool) -> Self {
+        let mut trees: BTreeMap<(&str, &str), Vec<(f64, f64)>> = BTreeMap::new();
+        for (row, &cost) in rows.iter().zip(cost).filter(|(row, _)| wanted(row)) {
+            let key = (row.work.scene.as_str(), row.work.rays.as_str());
+            trees.entry(key).or_default().push((cost, row.ns));
+        }
+        let mut all = Self::default();
+        let (mut right, mut pairs) = (0, 0);
+        for ((scene, _), trees) in trees {
+            let (costs, times): (Vec<f64>, Vec<f64>) = trees.into_iter().unzip();
+            let Some(tau) = kendall_tau_b(&costs, &times) else {
+                continue;
+            };
+            let own = crate::stats::concordant(&costs, &times);
+            right += own.right;
+            pairs += own.right + own.wrong + own.tied;
+            all.scenes += 1;
+            all.tau += tau;
+            let taken = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
+            let fastest = times.iter().copied().fold(f64::INFINITY, f64::min);
+            let regret = taken.map_or(0.0, |taken| times[taken] / fastest - 1.0);
+            all.regret_mean += regret;
+            if regret > all.regret_max || all.worst.is_empty() {
+                all.regret_max = regret;
+                all.worst = scene.into();
+            }
+        }
+        let scenes = (all.scenes as f64).max(1.0);
+        all.tau /= scenes;
+        all.regret_mean /= scenes;
+        all.pairs_right = right as f64 / (pairs as f64).max(1.0);
+        all
+    }
+}

@@ -1,0 +1,114 @@
+//! The experiment `cost-vs-work`: what surface areas predict of every tree, what rays of many kinds do in it, and how long they
+//! take. Constants c_K, c_B and c_t are fitted to the seconds and judged on scenes left out.
+
+pub mod asked;
+mod calibration;
+mod cells;
+mod choice;
+mod fit;
+mod processor;
+mod steps;
+mod terms;
+
+use crate::scene::Scene;
+
+use super::hits;
+use super::hits::cell::CellPlan;
+use super::records::{CellRecord, Estimate, PassTiming, Summary};
+use super::store::{Store, TIMINGS};
+use super::{Plan, RunError, Watcher};
+
+pub use asked::CostVsWork;
+use cells::Measured;
+
+/// Measure what is not finished and write the files of the run.
+pub(super) fn run(
+    plan: &Plan,
+    asked: &CostVsWork,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    let planned = scenes
+        .iter()
+        .map(|scene| cells::of_scene(plan, asked, scene));
+    let planned: Vec<Vec<CellPlan>> = planned.collect();
+    // Of every tree: its counts, and each round of its times.
+    let units = u64::from(1 + asked.timing.rounds);
+    let all: usize = planned.iter().map(Vec::len).sum();
+    watcher.expect(all as u64 * units);
+    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    let found: Vec<_> = planned
+        .iter()
+        .map(|cells| cells::finished(asked, store, cells, &times))
+        .collect();
+    let already = found.iter().flatten().map(Vec::len).sum::<usize>();
+    if already > 0 {
+        watcher.note(&format!(
+            "{already} of {all} trees were finished by an earlier run (--force measures them again)"
+        ));
+    }
+    if already < all {
+        watcher.announce(&format!("tracing rays through {} trees", all - already));
+    }
+    let mut measured: Vec<Measured> = Vec::new();
+    for (cells, found) in planned.iter().zip(found) {
+        if let Some(found) = found {
+            watcher.skip(found.len() as u64 * units);
+            measured.extend(found);
+        } else {
+            measured.extend(cells::measure(plan, asked, cells, store, watcher)?);
+        }
+    }
+    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    calibration::write(plan, asked, &measured, &times, store, watcher)?;
+    let records: Vec<CellRecord> = measured.iter().map(|tree| tree.record.clone()).collect();
+    store.write_rows("cells.csv", &records)?;
+    store.write_rows("work.csv", measured.iter().flat_map(|tree| &tree.work))?;
+    store.write_rows("steps.csv", measured.iter().flat_map(|tree| &tree.steps))?;
+    let estimates = hits::estimates(&records, asked.expect.family);
+    let counts: Vec<&Estimate> = estimates.iter().filter(|e| e.name != "slope").collect();
+    let mut verdicts = vec![hits::verdicts::identities(&records)];
+    verdicts.extend(hits::verdicts::simultaneous(
+        asked.expect.family,
+        "counts-cover",
+        "the predicted count",
+        &counts,
+    ));
+    store.write_summary(&Summary {
+        stop: match asked.stops[..] {
+            [stop] => Some(stop.to_string()),
+            _ => None,
+        },
+        family_level: Some(1.0 - asked.expect.family),
+        verdicts,
+        estimates,
+        ..plan.summary()
+    })?;
+    Ok(())
+}
+
+/// The cells of a dry run, a line each.
+pub(super) fn describe(plan: &Plan, asked: &CostVsWork, scenes: &[Scene]) -> String {
+    let mut text = format!("seed {}\n", plan.seed);
+    for scene in scenes {
+        for cell in cells::of_scene(plan, asked, scene) {
+            text += &format!(
+                "{}  {:20} {:24} {:14} {:>9} objects\n",
+                cell.id,
+                cell.scene.name,
+                cell.rules.strategy,
+                cell.rules.stop.to_string(),
+                cell.scene.bounds.len(),
+            );
+        }
+    }
+    let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
+    text + &format!(
+        "rays: {} of each source, {} corners of pixels; {}; {} rounds of times\n",
+        asked.number,
+        u64::from(asked.pixels + 1).pow(2),
+        sets.join(", "),
+        asked.timing.rounds
+    )
+}
