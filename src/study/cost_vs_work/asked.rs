@@ -97,7 +97,7 @@ impl CostVsWork {
         within("timing.rays", self.timing.rays, MOST_RAYS)?;
         within("timing.work", self.timing.work, u64::MAX)?;
         let rounds = self.timing.rounds;
-        wrong_unless(rounds >= 2 && rounds % 2 == 0, "timing.rounds", || {
+        wrong_unless(rounds >= 2 && rounds.is_multiple_of(2), "timing.rounds", || {
             format!("timing.rounds = {rounds}, but it must be even and at least 2, for two halves")
         })?;
         within("calibration.draws", self.calibration.draws.into(), 1 << 20)?;
