@@ -172,4 +172,18 @@ mod tests {
         assert_eq!(normal.condition_number(), None);
         assert_eq!(Normal::new(0).condition_number(), None);
     }
+    #[test]
+    fn sums_of_columns_depend_whatever_rounding_leaves() {
+        for i in 1..40 {
+            let rows: Vec<[f64; 3]> = (1..9)
+                .map(|j| {
+                    let (a, b) = (f64::from(i * j).sqrt(), 1.0 / f64::from(i + j * j));
+                    [a, b, 0.3 * a + 0.7 * b]
+                })
+                .collect();
+            let normal = of(&rows.iter().map(|row| &row[..]).collect::<Vec<_>>());
+            assert_eq!(normal.variance_inflation(), [None; 3]);
+            assert_eq!(normal.condition_number(), None);
+        }
+    }
 }
