@@ -97,9 +97,15 @@ impl CostVsWork {
         within("timing.rays", self.timing.rays, MOST_RAYS)?;
         within("timing.work", self.timing.work, u64::MAX)?;
         let rounds = self.timing.rounds;
-        wrong_unless(rounds >= 2 && rounds.is_multiple_of(2), "timing.rounds", || {
-            format!("timing.rounds = {rounds}, but it must be even and at least 2, for two halves")
-        })?;
+        wrong_unless(
+            rounds >= 2 && rounds.is_multiple_of(2),
+            "timing.rounds",
+            || {
+                format!(
+                    "timing.rounds = {rounds}, but it must be even and at least 2, for two halves"
+                )
+            },
+        )?;
         within("calibration.draws", self.calibration.draws.into(), 1 << 20)?;
         check_family(self.expect.family)?;
         let Expect {

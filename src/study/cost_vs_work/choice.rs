@@ -79,7 +79,26 @@ fn gain(before: &[f64], after: &[f64]) -> [f64; 2] {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fit::tests::{rows, trees};
+    use super::super::terms::Row;
     use super::*;
+
+    #[test]
+    fn the_term_that_made_the_times_is_chosen_and_no_other() {
+        let trees = trees(0.02);
+        let rows = rows(&trees);
+        let fitter = Fitter::new(&rows, Row::group);
+        for out in [&[][..], &[2]] {
+            let mut steps = Vec::new();
+            let model = choose(&fitter, out, |row| steps.push(row));
+            let taken: Vec<_> = steps.iter().filter(|s| s.taken).collect();
+            assert_eq!(taken[0].candidate, "mispredicted branches");
+            assert!(model.terms.contains(&Term::Surprise));
+            // What is taken after it gains next to nothing.
+            assert!(taken[1..].iter().all(|s| s.gain < 0.002), "{taken:?}");
+            assert!(taken[0].gain > 4.0 * taken[0].gain_se && taken[0].error_after < 0.02);
+        }
+    }
 
     #[test]
     fn gains_have_the_standard_error_of_their_mean() {

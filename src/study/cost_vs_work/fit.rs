@@ -201,3 +201,128 @@ impl Orders {
         all
     }
 }
+
+#[cfg(test)]
+pub mod tests {
+    use rand::rngs::ChaCha8Rng;
+    use rand::{RngExt, SeedableRng};
+
+    use super::*;
+    use crate::study::records::{CellRecord, StepRecord, WorkRecord};
+
+    /// Six groups of eight trees under one set of rays, whose times are 3 n_K + 7 n_t + 11 surprises, and up to `noise` of that.
+    pub fn trees(noise: f64) -> Vec<(CellRecord, WorkRecord, StepRecord, f64)> {
+        let mut random = ChaCha8Rng::seed_from_u64(4);
+        let mut trees = Vec::new();
+        for group in 0..6 {
+            for _ in 0..8 {
+                let mut any = |most: u64| random.random_range(most / 4..most);
+                let steps = StepRecord {
+                    cast: 100,
+                    inner_visits: any(8000),
+                    leaf_visits: any(3000),
+                    empty_leaf_visits: any(1000),
+                    triangle_tests: any(6000),
+                    surprises: any(2000),
+                    first_misses: any(900),
+                    ..StepRecord::default()
+                };
+                let sum = 3 * steps.inner_visits + 7 * steps.triangle_tests + 11 * steps.surprises;
+                let off = 1.0 + noise * (2.0 * random.random::<f64>() - 1.0);
+                let work = WorkRecord {
+                    scene: format!("spd:{group}:1"),
+                    rays: "lines".into(),
+                    ..WorkRecord::default()
+                };
+                let cell = CellRecord {
+                    bytes: 1000,
+                    objects: 100,
+                    references: 150,
+                    ..CellRecord::default()
+                };
+                trees.push((cell, work, steps, off * sum as f64 / 100.0));
+            }
+        }
+        trees
+    }
+
+    pub fn rows(trees: &[(CellRecord, WorkRecord, StepRecord, f64)]) -> Vec<Row<'_>> {
+        trees
+            .iter()
+            .map(|(cell, work, steps, ns)| Row {
+                cell,
+                work,
+                steps,
+                ns: *ns,
+                disturbed: false,
+            })
+            .collect()
+    }
+
+    const TRUE: [Term; 3] = [Term::Inner, Term::Test, Term::Surprise];
+
+    #[test]
+    fn constants_that_made_the_times_are_found_without_any_group() {
+        let trees = trees(0.0);
+        let rows = rows(&trees);
+        let fitter = Fitter::new(&rows, Row::group);
+        assert_eq!(fitter.groups.len(), 6);
+        let model = Model::of("true", &TRUE);
+        let constants = fitter.constants(&model, [0, 3, 5]);
+        for (found, wanted) in constants.iter().zip([3.0, 7.0, 11.0]) {
+            assert!((found - wanted).abs() < 1e-9, "{constants:?}");
+        }
+        let predicted = fitter.left_out(&[], |_| model.clone());
+        assert!(Errors::of(&rows, &predicted).is_some_and(|e| e.max < 1e-12));
+        let orders = Orders::of(&rows, &predicted, |_| true);
+        assert_eq!(
+            (orders.scenes, orders.tau, orders.regret_max),
+            (6, 1.0, 0.0)
+        );
+    }
+
+    #[test]
+    fn rows_left_out_have_no_say_in_their_prediction() {
+        let mut trees = trees(0.1);
+        let model = Model::of("true", &TRUE);
+        let first = |trees: &[(CellRecord, WorkRecord, StepRecord, f64)]| {
+            let rows = rows(trees);
+            let fitter = Fitter::new(&rows, Row::group);
+            fitter.left_out(&[], |_| model.clone())[0]
+        };
+        let before = first(&trees);
+        // Times of its own group change nothing, those of another do.
+        trees[1].3 *= 5.0;
+        assert_eq!(first(&trees), before);
+        trees[20].3 *= 5.0;
+        assert_ne!(first(&trees), before);
+    }
+
+    #[test]
+    fn a_given_ratio_leaves_one_constant() {
+        let trees = trees(0.0);
+        let rows = rows(&trees);
+        let fitter = Fitter::new(&rows, Row::group);
+        let model = Model {
+            ratio: Some(vec![6.0, 14.0, 22.0]),
+            ..Model::of("twice", &TRUE)
+        };
+        let constants = fitter.constants(&model, 0..6);
+        assert!((constants[2] - 11.0).abs() < 1e-9 && model.constants() == 1);
+    }
+
+    #[test]
+    fn the_order_of_trees_by_hand() {
+        let mut trees = trees(0.0);
+        trees.truncate(3);
+        for (tree, ns) in trees.iter_mut().zip([10.0, 12.0, 20.0]) {
+            tree.3 = ns;
+        }
+        let rows = rows(&trees);
+        // The second tree is taken, which costs a fifth; of three pairs one is wrong.
+        let orders = Orders::of(&rows, &[2.0, 1.0, 3.0], |_| true);
+        assert!((orders.tau - 1.0 / 3.0).abs() < 1e-15);
+        assert!((orders.pairs_right - 2.0 / 3.0).abs() < 1e-15);
+        assert!((orders.regret_mean - 0.2).abs() < 1e-15 && orders.worst == "spd:0:1");
+    }
+}

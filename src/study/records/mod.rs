@@ -27,7 +27,7 @@ pub const SCHEMA: u32 = 2;
 /// `pilot_lines` lines and the number of all `lines`. Fits and tests are empty where the tree has nothing to fit: no node
 /// but the root, or (free line) no two nodes of different area. A standard error is empty where the pilot cannot tell it:
 /// where the variance hangs on events too rare for the pilot's lines.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CellRecord {
     /// Identity of the cell, computed from all its parameters (seed included).

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 ///
 /// Rates are per ray. A standard error is empty where the set is complete, so that there is none: all rays of a picture, all
 /// rays of a file.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct WorkRecord {
     /// Identity of the tree's cell.
