@@ -22,7 +22,7 @@ pub fn clip_slack(world: &Aabb) -> f64 {
 pub struct Clipper {
     corners: Vec<DVec3>,
     /// Corners after the next cut.
-    cut: Vec<DVec3>,
+    next: Vec<DVec3>,
 }
 
 impl Clipper {
@@ -33,12 +33,7 @@ impl Clipper {
             // Differences of its coordinates overflow: nothing can be told.
             return Some(*region);
         }
-        self.corners.clear();
-        self.corners.extend_from_slice(corners);
-        for axis in 0..3 {
-            self.keep(axis, 1.0, region.lo[axis] - slack);
-            self.keep(axis, -1.0, -(region.hi[axis] + slack));
-        }
+        self.cut(corners, region, slack);
         if self.corners.is_empty() {
             return None;
         }
@@ -49,13 +44,40 @@ impl Clipper {
         })
     }
 
+    /// Area of the polygon's part inside `region`, by corners that are not widened. Parts that go round in opposite directions
+    /// cancel, so a notched polygon cut into several pieces keeps its area.
+    pub(super) fn area(&mut self, corners: &[DVec3], region: &Aabb) -> f64 {
+        self.cut(corners, region, 0.0);
+        let Some(&last) = self.corners.last() else {
+            return 0.0;
+        };
+        let mut twice = DVec3::ZERO;
+        let mut from = DVec3::ZERO;
+        for &corner in &self.corners {
+            let to = corner - last;
+            twice += from.cross(to);
+            from = to;
+        }
+        0.5 * twice.length()
+    }
+
+    /// Leave in `self.corners` the polygon's part inside `region` widened by `slack`.
+    fn cut(&mut self, corners: &[DVec3], region: &Aabb, slack: f64) {
+        self.corners.clear();
+        self.corners.extend_from_slice(corners);
+        for axis in 0..3 {
+            self.keep(axis, 1.0, region.lo[axis] - slack);
+            self.keep(axis, -1.0, -(region.hi[axis] + slack));
+        }
+    }
+
     /// Keep what lies where `sign * x[axis] >= limit`.
     fn keep(&mut self, axis: Axis, sign: f64, limit: f64) {
         let inside = |p: &DVec3| sign * p[axis] >= limit;
         if self.corners.iter().all(inside) {
             return;
         }
-        self.cut.clear();
+        self.next.clear();
         let Some(&last) = self.corners.last() else {
             return;
         };
@@ -65,14 +87,14 @@ impl Clipper {
                 let share = (sign * limit - from[axis]) / (to[axis] - from[axis]);
                 let mut crossing = from + share * (to - from);
                 crossing[axis] = sign * limit;
-                self.cut.push(crossing);
+                self.next.push(crossing);
             }
             if inside(&to) {
-                self.cut.push(to);
+                self.next.push(to);
             }
             from = to;
         }
-        std::mem::swap(&mut self.corners, &mut self.cut);
+        std::mem::swap(&mut self.corners, &mut self.next);
     }
 }
 

@@ -2,6 +2,7 @@
 
 mod aabb;
 mod cast;
+mod area;
 mod clip;
 mod cone;
 mod line;

@@ -19,6 +19,11 @@ impl Sphere {
         Aabb::new(self.centre - self.radius, self.centre + self.radius)
     }
 
+    /// Area of the surface.
+    pub fn area(&self) -> f64 {
+        4.0 * std::f64::consts::PI * self.radius * self.radius
+    }
+
     /// The outward normal at a point of the surface, not of unit length.
     pub fn normal(&self, point: DVec3) -> DVec3 {
         point - self.centre

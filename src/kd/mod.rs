@@ -10,6 +10,7 @@ pub mod build;
 mod clip;
 pub mod count;
 pub mod curve;
+pub mod expect;
 mod medians;
 pub mod octree;
 pub mod predict;
