@@ -198,7 +198,7 @@ fn costs_come_near_counted_ones() {
         (Metric::Area, 0.04),
         (Metric::Occlusion, 0.40),
         (Metric::Interior, 0.04),
-        (Metric::InteriorOcclusion, 0.60),
+        (Metric::InteriorOcclusion, 0.48),
         (Metric::Surface, 0.26),
         (Metric::Mailbox, 0.11),
     ];

@@ -69,7 +69,7 @@ impl Chords {
         libm::acos((1.0 - 2.0 * (x - lo) / (hi - lo)).clamp(-1.0, 1.0))
     }
 
-    /// Angles along a side of a part with their weights, which add up to 1; of no use if the side has no length.
+    /// Angles along a side of a part with their weights, which add up to 1.
     fn points(&self, part: &Aabb, axis: Axis) -> Vec<(f64, f64)> {
         let [from, to] = [part.lo, part.hi].map(|corner| self.angle(corner[axis], axis));
         let steps = 1 + ((to - from) / STEP) as usize;
@@ -83,8 +83,12 @@ impl Chords {
                 (angle, libm::sin(angle))
             })
             .collect();
+        // Beside a face all angles may be rounded to it.
         let sum: f64 = points.iter().map(|point| point.1).sum();
-        points.iter_mut().for_each(|point| point.1 /= sum);
+        let equal = 1.0 / points.len() as f64;
+        for (_, weight) in &mut points {
+            *weight = if sum > 0.0 { *weight / sum } else { equal };
+        }
         points
     }
 

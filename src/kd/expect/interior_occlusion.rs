@@ -2,14 +2,15 @@
 //!
 //! A ray that starts in a node starts in one of its children, by their volumes, and leaves that one unhit with some
 //! chance. Of the rays that leave a child, its faces are taken to let through their shares of its area, and those through
-//! the common face to cross the other child as rays from outside do.
+//! the common face to cross the other child as rays from outside do. This tells what share of the work stopping saves; the
+//! work without stopping is that of `interior`, which needs no such simplification.
 
 use crate::geom::Aabb;
 use crate::kd::Tree;
 
 use super::occlusion::Crossing;
 use super::ways::{Inner, from_leaves};
-use super::{Expected, Parts};
+use super::{Expected, Metric, Parts};
 
 /// What a node is to a ray that starts in it, and to one that crosses it.
 #[derive(Clone, Copy, Default)]
@@ -21,12 +22,31 @@ struct Start {
     leave: f64,
 }
 
-/// What a ray from inside is expected to do until its nearest hit. In a flat box it leaves where it begins.
+/// What a ray from inside is expected to do until its nearest hit.
 pub(super) fn expected(tree: &Tree, parts: &Parts) -> Expected {
+    let never = Metric::Interior.expected(tree, parts);
+    let with = recursion(tree, |leaf| parts.of(leaf).miss_inside);
+    let without = recursion(tree, |_| 1.0);
+    let scaled = |never: f64, with: f64, without: f64| {
+        if without > 0.0 {
+            never * (with / without)
+        } else {
+            0.0
+        }
+    };
+    Expected {
+        n_k: scaled(never.n_k, with.n_k, without.n_k),
+        n_b: scaled(never.n_b, with.n_b, without.n_b),
+        n_t: scaled(never.n_t, with.n_t, without.n_t),
+    }
+}
+
+/// The recursion for leaves that are missed with these chances. In a flat box a ray leaves where it begins.
+fn recursion(tree: &Tree, miss: impl Fn(usize) -> f64) -> Expected {
     let flat = tree.boxes[0].volume() == 0.0;
     let size = |b: &Aabb| if flat { b.surface_area() } else { b.volume() };
     let leaf = |leaf, _, objects| {
-        let crossing = Crossing::leaf(objects, parts.of(leaf).miss);
+        let crossing = Crossing::leaf(objects, miss(leaf));
         Start {
             crossing,
             work: crossing.work,

@@ -11,6 +11,8 @@ pub(super) struct Part {
     pub area: f64,
     /// The chance that an isotropic line that hits the leaf hits none of them in it.
     pub miss: f64,
+    /// The same of those that do not lie in a face of the root: the others stop no ray from inside before it leaves.
+    pub miss_inside: f64,
 }
 
 /// The surfaces in the leaves of a tree: what the metrics read that know of hits.
@@ -28,18 +30,21 @@ impl Parts {
             let mut part = Part {
                 area: 0.0,
                 miss: 1.0,
+                miss_inside: 1.0,
             };
             for &number in in_leaf {
                 let own = &bounds[number as usize];
                 let area = objects.area_within(number, own, region, &mut clipper);
                 let object = objects.get(number);
                 let share = area / object.area();
-                part.miss *= 1.0 - chance(area, region, object.is_round().then_some(share));
-                part.area += if in_face(own, &tree.world) {
-                    0.5 * area
+                let miss = 1.0 - chance(area, region, object.is_round().then_some(share));
+                part.miss *= miss;
+                if in_face(own, &tree.world) {
+                    part.area += 0.5 * area;
                 } else {
-                    area
-                };
+                    part.area += area;
+                    part.miss_inside *= miss;
+                }
             }
             part
         };
