@@ -309,6 +309,30 @@ fn a_ray_that_meets_a_flat_world_has_one_leaf() {
 }
 
 #[test]
+fn a_floor_of_the_world_stops_only_rays_from_outside() {
+    let corners = [(0.0, 0.0), (2.0, 0.0), (2.0, 1.0), (0.0, 1.0)];
+    let floor = Polygon::new(corners.map(|(x, y)| DVec3::new(x, y, 3.0)).into()).unwrap();
+    let objects = Objects {
+        triangles: vec![Triangle([DVec3::new(1.0, 0.5, 4.0); 3])],
+        polygons: vec![floor],
+        ..Objects::default()
+    };
+    let tree = tree_of(&objects, Strategy::SpatialMedian, "depth:6");
+    let [area, outside, never, stopped, surface] = [
+        Metric::Area,
+        Metric::Occlusion,
+        Metric::Interior,
+        Metric::InteriorOcclusion,
+        Metric::Surface,
+    ]
+    .map(|metric| expected(metric, &tree, &objects));
+    assert_near(stopped, never, 1e-12);
+    assert!(outside.n_b < 0.9 * area.n_b);
+    // Rays from the floor start on its inner side, in one of the lower cells, below six planes.
+    assert!(surface.n_k > 6.0 && surface.n_b > 1.0 && surface.n_t > 1.0);
+}
+
+#[test]
 fn one_object_in_one_leaf_is_hit_as_often_as_its_area_says() {
     // Behind a leaf with a sphere of radius 1/4, in the left half of the unit cube, lies an empty one. Corners of the
     // cube are held by triangles without area.

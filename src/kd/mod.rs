@@ -1,8 +1,8 @@
 //! The kd-tree: strategies that place planes, stop rules, building, traversal with probes, and the area prediction;
 //! an octree to compare with.
 //!
-//! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]),
-//! counted ones from the planes alone ([`traverse()`], [`stream`]).
+//! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]), or from the
+//! boxes and the objects' areas ([`expect`]), counted ones from the planes alone ([`traverse()`], [`stream`]).
 
 pub mod ask;
 pub mod audit;
