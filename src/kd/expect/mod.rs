@@ -88,7 +88,8 @@ pub enum Metric {
     Interior,
     /// Rays from uniform points of the root's box, in uniform directions, that stop at their nearest hit.
     InteriorOcclusion,
-    /// Rays from uniform points of the objects' surfaces, either side, by the cosine law, that stop at their next hit.
+    /// Rays from uniform points of the objects' surfaces, by the cosine law, that stop at their next hit. They start on either
+    /// side; where a surface lies in a face of the root, on the inner one.
     Surface,
     /// Isotropic lines that never stop and test no object twice (after Haines, Ray Tracing News 17(1), and Hunt 2008).
     Mailbox,
