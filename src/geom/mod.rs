@@ -1,8 +1,8 @@
 //! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64.
 
 mod aabb;
-mod cast;
 mod area;
+mod cast;
 mod clip;
 mod cone;
 mod line;

@@ -151,10 +151,17 @@ pub fn simulated(metric: Metric, scene: &Scene, tree: &Tree) -> Expected {
             let mut work = Work::default();
             let mut met = Vec::new();
             let line = line(world, i);
-            traverse::<Counting>(tree, &line, Span::FULL, stack, &mut work, |objects| {
-                met.extend_from_slice(objects);
-                f64::INFINITY
-            });
+            traverse::<Counting, _>(
+                tree,
+                &line,
+                Span::FULL,
+                stack,
+                &mut work,
+                |objects: &[u32], _| {
+                    met.extend_from_slice(objects);
+                    f64::INFINITY
+                },
+            );
             met.sort_unstable();
             met.dedup();
             work.tests = met.len() as u64;
