@@ -17,11 +17,15 @@ use super::choice::{CHOSEN, choose};
 use super::fit::{Errors, Fitter, Model, Orders, time};
 use super::terms::{Row, Term};
 
-/// Fewest groups of scenes for terms to be chosen without one and judged on it.
-const FEWEST_GROUPS: usize = 3;
+/// Fewest scenes for terms to be chosen without one and judged on it.
+const FEWEST_SCENES: usize = 3;
 
 /// Level of the intervals of constants.
 const LEVEL: f64 = 0.95;
+
+/// What is left out at a time.
+const SCENE: &str = "scene";
+const GROUP: &str = "group";
 
 /// The model that areas can be put into.
 const TWO: &str = "n_K, n_t";
@@ -61,12 +65,11 @@ pub fn write(
     watcher: &impl Watcher,
 ) -> Result<(), StoreError> {
     let rows = rows(measured, times);
-    let fitter = Fitter::new(&rows, Row::group);
-    let found = if fitter.groups.len() < FEWEST_GROUPS {
+    let fitter = Fitter::new(&rows);
+    let found = if fitter.scenes.len() < FEWEST_SCENES {
         watcher.note(&format!(
-            "constants are fitted to at least {FEWEST_GROUPS} scenes of different names, and judged on those left out; these \
-             are {}",
-            fitter.groups.len()
+            "constants are fitted to at least {FEWEST_SCENES} scenes, and judged on those left out; these are {}",
+            fitter.scenes.len()
         ));
         Calibrated {
             models: Vec::new(),
@@ -118,26 +121,27 @@ fn rows<'r>(measured: &'r [Measured], times: &[PassTiming]) -> Vec<Row<'r>> {
 
 fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
     let rows = fitter.rows;
-    let single = Fitter::new(rows, |row| &row.work.scene);
+    let scenes = fitter.single_scenes();
     let mut models = Vec::new();
     let mut two = Vec::new();
     for model in given() {
-        let by_group = fitter.left_out(&[], |_| model.clone());
-        let by_scene = single.left_out(&[], |_| model.clone());
-        models.extend(record(&model, "group", rows, &by_group));
-        models.extend(record(&model, "scene", rows, &by_scene));
+        let by_scene = fitter.left_out(&[], &scenes, |_| model.clone());
+        let by_group = fitter.left_out(&[], &fitter.groups, |_| model.clone());
+        models.extend(record(&model, SCENE, rows, &by_scene));
+        models.extend(record(&model, GROUP, rows, &by_group));
         if model.name == TWO {
-            two = by_group;
+            two = by_scene;
         }
     }
 
-    // Terms are chosen without the group they are judged on; the model that is shown is chosen from all.
+    // Terms are chosen without the scenes they are judged on; the model that is shown is chosen from all.
     let mut choices = Vec::new();
     let model = choose(fitter, &[], |row| choices.push(row));
-    let chosen = fitter.left_out(&[], |out| choose(fitter, out, |_| ()));
-    models.extend(record(&model, "group", rows, &chosen));
-    let by_scene = single.left_out(&[], |_| model.clone());
-    models.extend(record(&model, "scene", rows, &by_scene));
+    let choose = |out: &[usize]| choose(fitter, out, |_| ());
+    let chosen = fitter.left_out(&[], &scenes, choose);
+    models.extend(record(&model, SCENE, rows, &chosen));
+    let by_group = fitter.left_out(&[], &fitter.groups, choose);
+    models.extend(record(&model, GROUP, rows, &by_group));
 
     let shown = given().into_iter().filter(|model| model.ratio.is_none());
     let shown = shown.filter(|model| model.terms.len() > 1).chain([model]);
@@ -195,11 +199,13 @@ fn constants(
     fitter: &Fitter,
     model: &Model,
 ) -> Vec<ConstantRecord> {
-    let groups = fitter.groups.len();
-    let all = fitter.constants(model, 0..groups);
+    let all = fitter.constants(model, fitter.others(&[]));
     let draws = asked.calibration.draws as usize;
-    let intervals = cluster_bootstrap(groups, draws, plan.seed, LEVEL, |drawn| {
-        Some(fitter.constants(model, drawn.iter().copied()))
+    // Sizes of one scene are drawn together: they are much alike.
+    let groups = &fitter.groups;
+    let intervals = cluster_bootstrap(groups.len(), draws, plan.seed, LEVEL, |drawn| {
+        let scenes = drawn.iter().flat_map(|&group| &groups[group]);
+        Some(fitter.constants(model, scenes.copied()))
     });
     let inflation = fitter.inflation(model);
     let share = |number: usize| {
@@ -226,14 +232,13 @@ fn constants(
     (0..model.terms.len()).map(constant).collect()
 }
 
-/// Nanoseconds of every row by areas alone: constants of n_K and n_t, fitted to counts without the row's group, times what
+/// Nanoseconds of every row by areas alone: constants of n_K and n_t, fitted to counts without the row's scene, times what
 /// areas predict.
 fn areas(fitter: &Fitter) -> Vec<f64> {
     let model = Model::of(TWO, &[Term::Inner, Term::Test]);
     let mut predicted = vec![0.0; fitter.rows.len()];
-    for (group, numbers) in fitter.groups.iter().enumerate() {
-        let others = (0..fitter.groups.len()).filter(|other| *other != group);
-        let constants = fitter.constants(&model, others);
+    for (scene, numbers) in fitter.scenes.iter().enumerate() {
+        let constants = fitter.constants(&model, fitter.others(&[scene]));
         for &number in numbers {
             let work = fitter.rows[number].work;
             predicted[number] =
@@ -288,7 +293,7 @@ fn orders(
 
 /// Whether scenes left out are predicted as well as was expected.
 fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
-    let own = |row: &&ModelRecord| row.model == CHOSEN && row.left_out == "group";
+    let own = |row: &&ModelRecord| row.model == CHOSEN && row.left_out == SCENE;
     let Some(found) = models.iter().find(own) else {
         return Vec::new();
     };
@@ -315,8 +320,7 @@ fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
             expect.error_median,
             false,
             format!(
-                "times of all sizes of a scene left out, predicted from chosen terms: median relative error {}, mean {}, \
-                 worst {}",
+                "times of scenes left out, predicted from chosen terms: median relative error {}, mean {}, worst {}",
                 percent(found.error_median),
                 percent(found.error_mean),
                 percent(found.error_max)

@@ -9,12 +9,13 @@ use super::terms::{CANDIDATES, Candidate, Term};
 /// The name of the model that results.
 pub const CHOSEN: &str = "chosen terms";
 
-/// Choose terms from all groups but `out`; each step is told.
+/// Choose terms from all scenes but `out`; each step is told.
 pub fn choose(fitter: &Fitter, out: &[usize], mut told: impl FnMut(ChoiceRecord)) -> Model {
     let mut model = Model::of(CHOSEN, &[Term::Inner, Term::Test]);
     let mut left: Vec<&Candidate> = CANDIDATES.iter().collect();
+    let folds: Vec<Vec<usize>> = fitter.others(out).map(|scene| vec![scene]).collect();
     let errors_of = |model: &Model| {
-        let predicted = fitter.left_out(out, |_| model.clone());
+        let predicted = fitter.left_out(out, &folds, |_| model.clone());
         fitter.errors(&predicted, out)
     };
     let mut errors = errors_of(&model);
@@ -65,7 +66,7 @@ fn mean(values: &[f64]) -> f64 {
     values.iter().sum::<f64>() / values.len() as f64
 }
 
-/// Mean over groups of what the error falls by, and its standard error.
+/// Mean over scenes of what the error falls by, and its standard error.
 fn gain(before: &[f64], after: &[f64]) -> [f64; 2] {
     let gains: Vec<f64> = before.iter().zip(after).map(|(b, a)| b - a).collect();
     let n = gains.len() as f64;
@@ -80,14 +81,13 @@ fn gain(before: &[f64], after: &[f64]) -> [f64; 2] {
 #[cfg(test)]
 mod tests {
     use super::super::fit::tests::{rows, trees};
-    use super::super::terms::Row;
     use super::*;
 
     #[test]
     fn the_term_that_made_the_times_is_chosen_and_no_other() {
         let trees = trees(0.02);
         let rows = rows(&trees);
-        let fitter = Fitter::new(&rows, Row::group);
+        let fitter = Fitter::new(&rows);
         for out in [&[][..], &[2]] {
             let mut steps = Vec::new();
             let model = choose(&fitter, out, |row| steps.push(row));

@@ -17,7 +17,7 @@ pub struct Row<'r> {
 }
 
 impl Row<'_> {
-    /// Its group of scenes: all sizes of one scene, which are left out together.
+    /// Its group of scenes: all sizes of one.
     pub fn group(&self) -> &str {
         group(&self.work.scene)
     }
@@ -60,6 +60,9 @@ pub enum Term {
     FirstMiss,
     /// Cache lines not in 1 MiB.
     SecondMiss,
+    /// These, the more the further away they must be: times log2 of the bytes of tree and objects over 4 MiB, where that is
+    /// positive.
+    FarMiss,
 }
 
 /// Kinds of objects.
@@ -82,9 +85,15 @@ impl Kind {
     }
 }
 
+/// Bytes of an object, about: triangles take 72, spheres 32, cones 64, polygons more.
+const OBJECT: f64 = 72.0;
+
+/// Bytes up to which memory counts as near: a core's share of the last cache.
+const NEAR: f64 = (4 << 20) as f64;
+
 impl Term {
     /// Every term: the columns of the fit.
-    pub const ALL: [Self; 19] = [
+    pub const ALL: [Self; 20] = [
         Self::Ray,
         Self::Inner,
         Self::Leaf,
@@ -104,6 +113,7 @@ impl Term {
         Self::Surprise,
         Self::FirstMiss,
         Self::SecondMiss,
+        Self::FarMiss,
     ];
 
     /// Its column.
@@ -128,6 +138,7 @@ impl Term {
             Self::Surprise => "branch mispredicted".into(),
             Self::FirstMiss => "cache line not in 32 KiB".into(),
             Self::SecondMiss => "cache line not in 1 MiB".into(),
+            Self::FarMiss => "cache line not in 1 MiB, per doubling of memory above 4 MiB".into(),
         }
     }
 
@@ -163,6 +174,10 @@ impl Term {
             Self::Surprise => per_ray(s.surprises),
             Self::FirstMiss => per_ray(s.first_misses),
             Self::SecondMiss => per_ray(s.second_misses),
+            Self::FarMiss => {
+                let memory = row.cell.bytes as f64 + OBJECT * row.cell.objects as f64;
+                per_ray(s.second_misses) * libm::log2(memory / NEAR).max(0.0)
+            }
         }
     }
 }
@@ -178,7 +193,7 @@ pub struct Candidate {
 }
 
 /// All candidates, to be added to n_K and n_t.
-pub const CANDIDATES: [Candidate; 10] = [
+pub const CANDIDATES: [Candidate; 11] = [
     Candidate {
         name: "constant per ray",
         adds: &[Term::Ray],
@@ -238,6 +253,11 @@ pub const CANDIDATES: [Candidate; 10] = [
     Candidate {
         name: "misses of a 1 MiB cache",
         adds: &[Term::SecondMiss],
+        replaces: &[],
+    },
+    Candidate {
+        name: "misses of a 1 MiB cache, by memory",
+        adds: &[Term::FarMiss],
         replaces: &[],
     },
 ];

@@ -12,7 +12,7 @@ pub struct ModelRecord {
     pub model: String,
     /// Constants that are fitted.
     pub constants: u64,
-    /// What was left out at a time: `group` (all sizes of a scene) or `scene`.
+    /// What was left out at a time: `scene`, or `group` (all sizes of a scene).
     pub left_out: String,
     /// Rows predicted: trees times sets of rays.
     pub rows: u64,
@@ -62,11 +62,11 @@ pub struct ChoiceRecord {
     pub step: u64,
     /// The candidate.
     pub candidate: String,
-    /// Mean error of groups left out, before.
+    /// Mean error of scenes left out, before.
     pub error_before: f64,
     /// And with the candidate.
     pub error_after: f64,
-    /// Mean over groups of scenes of the gain.
+    /// Mean over scenes of the gain.
     pub gain: f64,
     /// Its standard error.
     pub gain_se: f64,
@@ -74,7 +74,7 @@ pub struct ChoiceRecord {
     pub taken: bool,
 }
 
-/// The time of a set of rays in a tree, measured and predicted by models fitted without the tree's group of scenes. A row of
+/// The time of a set of rays in a tree, measured and predicted by models fitted without the tree's scene. A row of
 /// `times-predictions.csv`. Nanoseconds a ray.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
