@@ -9,7 +9,8 @@ use super::{Line, Ray, Span};
 pub struct Cast {
     /// Point at t = 0.
     pub origin: DVec3,
-    /// Direction of unit length, so that t is a distance.
+    /// Direction, not necessarily of unit length: t counts in units of it. Those the program makes have unit length, so
+    /// that t is a distance.
     pub direction: DVec3,
     /// Where it begins and ends.
     pub span: Span,

@@ -1,11 +1,12 @@
 //! What a ray asks of a tree.
 
 use std::fmt;
+use std::str::FromStr;
 
 use crate::geom::{Objects, Ray};
 
-use super::traverse::{all_watched, nearest_watched, occluded_watched};
-use super::{Probe, Stack, Tree};
+use super::traverse::{all_watched, any_watched, nearest_watched};
+use super::{Hit, Probe, Stack, Tree};
 
 /// What a ray asks, and so how early its traversal ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -41,11 +42,37 @@ impl Ask {
         stack: &mut Stack,
         probe: impl Probe,
     ) -> bool {
+        self.trace(tree, objects, ray, stack, probe).is_some()
+    }
+
+    /// Trace a ray; gives its nearest hit within its span, or of a ray that asks for any hit the one that ended it. Of a ray
+    /// that nothing stops that is the nearest hit too: what is asked sets the work, not the answer.
+    #[inline]
+    pub fn trace(
+        self,
+        tree: &Tree,
+        objects: &Objects,
+        ray: &Ray,
+        stack: &mut Stack,
+        probe: impl Probe,
+    ) -> Option<Hit> {
         match self {
-            Self::All => all_watched(tree, objects, ray, stack, probe) > 0,
-            Self::Nearest => nearest_watched(tree, objects, ray, stack, probe).is_some(),
-            Self::Any => occluded_watched(tree, objects, ray, stack, probe),
+            Self::All => all_watched(tree, objects, ray, stack, probe),
+            Self::Nearest => nearest_watched(tree, objects, ray, stack, probe),
+            Self::Any => any_watched(tree, objects, ray, stack, probe),
         }
+    }
+}
+
+impl FromStr for Ask {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let named = Self::ALL.into_iter().find(|ask| ask.name() == text);
+        named.ok_or_else(|| {
+            let names = Self::ALL.map(Self::name).join(", ");
+            format!("'{text}' is nothing a ray can ask; expected one of {names}")
+        })
     }
 }
 

@@ -129,7 +129,7 @@ pub fn traverse_line(
     traverse::<Counting, _>(tree, line, span, stack, &mut probe, |_, _| f64::INFINITY);
 }
 
-/// The nearest hit of a ray.
+/// A hit of a ray.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
     /// Number of the object hit.
@@ -161,7 +161,33 @@ pub fn nearest_watched<P: Probe>(
     objects: &Objects,
     ray: &Ray,
     stack: &mut Stack,
+    probe: P,
+) -> Option<Hit> {
+    best_watched(tree, objects, ray, stack, probe, |best| best.t)
+}
+
+/// The nearest hit of a ray that nothing stops: every object of every leaf it meets is tested, one in several leaves each
+/// time. At equal t the lowest object number.
+#[inline]
+pub fn all_watched<P: Probe>(
+    tree: &Tree,
+    objects: &Objects,
+    ray: &Ray,
+    stack: &mut Stack,
+    probe: P,
+) -> Option<Hit> {
+    best_watched(tree, objects, ray, stack, probe, |_| f64::INFINITY)
+}
+
+/// The nearest hit, if the best one so far makes nodes matter up to `limit` only.
+#[inline(always)]
+fn best_watched<P: Probe>(
+    tree: &Tree,
+    objects: &Objects,
+    ray: &Ray,
+    stack: &mut Stack,
     mut probe: P,
+    limit: impl Fn(Hit) -> f64,
 ) -> Option<Hit> {
     let mut best: Option<Hit> = None;
     let leaf = |in_leaf: &[u32], probe: &mut P| {
@@ -171,7 +197,7 @@ pub fn nearest_watched<P: Probe>(
                 best = Hit::nearer(best, object, t);
             }
         }
-        best.map_or(f64::INFINITY, |hit| hit.t)
+        best.map_or(f64::INFINITY, &limit)
     };
     traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
     best
@@ -182,55 +208,49 @@ pub fn occluded(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) ->
     occluded_watched(tree, objects, ray, stack, NoProbe)
 }
 
-/// As [`occluded`], with a probe. Leaves come front to back, their objects in the order of the references; the first
-/// object hit ends it, however far its hit.
+/// As [`occluded`], with a probe.
 #[inline]
 pub fn occluded_watched<P: Probe>(
     tree: &Tree,
     objects: &Objects,
     ray: &Ray,
     stack: &mut Stack,
-    mut probe: P,
+    probe: P,
 ) -> bool {
-    let mut untested = None;
-    let leaf = |in_leaf: &[u32], probe: &mut P| {
-        if untested.is_none() {
-            let hit = |&object: &u32| {
-                probe.test(object);
-                objects.intersect(object, ray).is_some()
-            };
-            untested = in_leaf.iter().position(hit).map(|i| in_leaf.len() - 1 - i);
-        }
-        match untested {
-            Some(_) => f64::NEG_INFINITY,
-            None => f64::INFINITY,
-        }
-    };
-    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
-    if let Some(objects) = untested {
-        probe.untested(objects as u32);
-    }
-    untested.is_some()
+    any_watched(tree, objects, ray, stack, probe).is_some()
 }
 
-/// How many of the leaves' references the ray hits within its span when nothing stops it: every object of every leaf it meets
-/// is tested, one in several leaves each time.
+/// The first hit that is found, which need not be the nearest: what ends a shadow ray. Leaves come front to back, their
+/// objects in the order of the references; the first object hit ends it, however far its hit.
 #[inline]
-pub fn all_watched<P: Probe>(
+pub fn any_watched<P: Probe>(
     tree: &Tree,
     objects: &Objects,
     ray: &Ray,
     stack: &mut Stack,
     mut probe: P,
-) -> u64 {
-    let mut hits = 0;
+) -> Option<Hit> {
+    let mut found = None;
+    let mut untested = 0;
     let leaf = |in_leaf: &[u32], probe: &mut P| {
-        for &object in in_leaf {
-            probe.test(object);
-            hits += u64::from(objects.intersect(object, ray).is_some());
+        if found.is_none() {
+            for (i, &object) in in_leaf.iter().enumerate() {
+                probe.test(object);
+                if let Some(t) = objects.intersect(object, ray) {
+                    found = Some(Hit { object, t });
+                    untested = in_leaf.len() - 1 - i;
+                    break;
+                }
+            }
         }
-        f64::INFINITY
+        match found {
+            Some(_) => f64::NEG_INFINITY,
+            None => f64::INFINITY,
+        }
     };
     traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
-    hits
+    if found.is_some() {
+        probe.untested(untested as u32);
+    }
+    found
 }

@@ -2,6 +2,7 @@
 
 mod address;
 pub mod checks;
+pub mod file;
 mod laws;
 pub mod source;
 mod surface;

@@ -5,7 +5,7 @@ use statrs::distribution::Binomial;
 use super::figure3::quantile;
 
 use super::{Content, Hits, Run};
-use crate::study::records::{CellRecord, NodeRecord, Summary};
+use crate::study::records::{CellRecord, StrategyChoiceRecord, NodeRecord, Summary};
 
 pub const LINES: u64 = 1 << 20;
 
@@ -135,6 +135,26 @@ pub fn summary(scene: &str) -> Summary {
     }
 }
 
+/// What rays of this name make of three strategies: `sah` is predicted the best, `sah-cyclic` is.
+pub fn choice(rays: &str) -> StrategyChoiceRecord {
+    let (_, ask) = rays.split_once(':').unwrap_or((rays, "all"));
+    StrategyChoiceRecord {
+        scene: "spd:scene:0".into(),
+        stop: "objects:2:16".into(),
+        rays: rays.into(),
+        ask: ask.into(),
+        cast: 1000,
+        strategies: 3,
+        kendall_tau: Some(0.5),
+        predicted: "sah".into(),
+        predicted_c_predicted: 100.0,
+        predicted_c_counted: 60.0,
+        least: "sah-cyclic".into(),
+        least_c_predicted: 120.0,
+        least_c_counted: 50.0,
+    }
+}
+
 /// A run of these cells, nothing else of it kept.
 pub fn run(cells: Vec<CellRecord>) -> Run {
     Run {
@@ -145,6 +165,7 @@ pub fn run(cells: Vec<CellRecord>) -> Run {
             nodes: None,
             bins: None,
             samplers: None,
+            choices: None,
             timings: None,
         }),
     }

@@ -4,9 +4,9 @@ use std::path::Path;
 
 use super::read::{optional_rows, rows_of};
 use super::table::Table;
-use super::{Figure, ReportError, cost, figure3, slopes, tables};
+use super::{Figure, ReportError, choices, cost, figure3, slopes, tables};
 use crate::study::records::{
-    BinRecord, CellRecord, NodeRecord, SamplerRecord, Summary, TimingRecord,
+    BinRecord, CellRecord, StrategyChoiceRecord, NodeRecord, SamplerRecord, Summary, TimingRecord,
 };
 
 /// The files of a run of kind `hits-vs-area`.
@@ -20,6 +20,8 @@ pub struct Hits {
     pub bins: Option<Vec<BinRecord>>,
     /// `samplers.csv`, where there is one.
     pub samplers: Option<Vec<SamplerRecord>>,
+    /// `choices.csv`, where the run traced rays.
+    pub choices: Option<Vec<StrategyChoiceRecord>>,
     /// `timings.csv`, where there is one.
     pub timings: Option<Vec<TimingRecord>>,
 }
@@ -32,6 +34,7 @@ impl Hits {
             nodes: optional_rows(&dir.join("nodes.csv"))?,
             bins: optional_rows(&dir.join("bins.csv"))?,
             samplers: optional_rows(&dir.join("samplers.csv"))?,
+            choices: optional_rows(&dir.join("choices.csv"))?,
             timings: optional_rows(&dir.join("timings.csv"))?,
         })
     }
@@ -89,6 +92,9 @@ impl Hits {
         ];
         if let Some(samplers) = &self.samplers {
             tables.push(("samplers", tables::samplers(samplers)));
+        }
+        if let Some(choices) = self.choices.as_deref().filter(|all| !all.is_empty()) {
+            tables.push(("work", choices::table(choices)));
         }
         tables
     }

@@ -7,6 +7,7 @@
 mod axis;
 mod bitmap;
 mod canvas;
+mod choices;
 mod cost;
 mod cost_vs_work;
 mod density;
@@ -36,6 +37,7 @@ mod termination;
 #[cfg(test)]
 mod tests;
 mod text;
+pub mod trace;
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::number::{counted, grouped, percent_above, significant};
 use super::table::fold;
-use super::{Content, Hits, Run, strategies, tables};
+use super::{Content, Hits, Run, choices, strategies, tables};
 use crate::study::records::{CellRecord, TimingRecord};
 
 /// Columns of the screen.
@@ -47,7 +47,15 @@ fn hits_study(run: &Run, hits: &Hits) -> String {
     } else {
         tables::extremes(&hits.cells)
     };
-    text + &table.to_text(WIDTH) + &verdicts(run) + nothing_to_fit(hits)
+    text + &table.to_text(WIDTH) + &of_rays(hits) + &verdicts(run) + nothing_to_fit(hits)
+}
+
+/// What rays of other kinds made of the trees; empty where none were traced.
+fn of_rays(hits: &Hits) -> String {
+    match hits.choices.as_deref() {
+        None | Some([]) => String::new(),
+        Some(all) => format!("\n{}", choices::table(all).to_text(WIDTH)),
+    }
 }
 
 /// The summary of one scene: its trees, their costs, and which to take.
@@ -63,7 +71,15 @@ pub fn scene(run: &Run) -> String {
         first.stop
     );
     text += &tables::of_scene(&hits.cells).to_text(WIDTH);
-    text += &advice(&hits.cells);
+    let real = hits.choices.as_deref().and_then(choices::real);
+    // Real rays go before lines.
+    if !real.is_some_and(choices::is_own) {
+        text += &advice(&hits.cells);
+    }
+    text += &of_rays(hits);
+    if let Some(real) = real {
+        text += &format!("\n{}\n", fold(&choices::advice(real), WIDTH));
+    }
     text + &verdicts(run) + nothing_to_fit(hits)
 }
 

@@ -1,6 +1,7 @@
 //! Experiments: from a file to cells, from cells to records, from records to verdicts. One folder a kind.
 
 pub mod cost_vs_work;
+pub mod choices;
 pub mod hits;
 pub mod identity;
 pub mod lines;
@@ -12,6 +13,7 @@ pub mod split_cost;
 pub mod store;
 pub mod strategies;
 pub mod timing;
+pub mod trace;
 pub mod watcher;
 pub mod work;
 
@@ -19,6 +21,7 @@ use thiserror::Error;
 
 use crate::scene::Scene;
 
+use hits::HitsVsArea;
 pub use lines::LineRule;
 pub use plan::{Kind, Plan, PlanError};
 use store::{EXPERIMENT, Store, StoreError};
@@ -79,6 +82,14 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
         Kind::HitsVsArea(_) | Kind::SplitCost(_) | Kind::CostVsWork(_) => false,
         Kind::Strategies(_) | Kind::Termination(_) => true,
     };
+    if let Kind::HitsVsArea(HitsVsArea {
+        work: Some(work), ..
+    }) = &plan.kind
+    {
+        scenes
+            .iter()
+            .try_for_each(|scene| ray_sets::check_scene(scene, &work.rays))?;
+    }
     match scenes.iter().find(|scene| traces && scene.look.is_none()) {
         Some(scene) => Err(format!(
             "{}: has no camera and lights, but kind '{}' traces pictures; take a scene named spd: or an .nff file with a view",

@@ -103,7 +103,7 @@ impl Kind {
 }
 
 /// Names of folders that are no run's under `data/`.
-const RESERVED: [&str; 3] = ["published", "reference", "bench"];
+const RESERVED: [&str; 4] = ["published", "reference", "bench", "trace"];
 
 /// Whether this can be the name of a folder for a run or a benchmark.
 pub fn is_folder_name(name: &str) -> bool {

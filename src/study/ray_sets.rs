@@ -85,11 +85,7 @@ impl FromStr for RaysOf {
                 RayKind::ALL.map(RayKind::name).join(", ")
             )
         };
-        let asked = Ask::ALL.into_iter().find(|own| own.name() == ask);
-        let ask = asked.ok_or_else(|| {
-            let names = Ask::ALL.map(Ask::name).join(", ");
-            wrong(format!("'{ask}' is no ASK, which is one of {names}"))
-        })?;
+        let ask: Ask = ask.parse().map_err(wrong)?;
         if name == OWN {
             return Ok(Self::Own(ask));
         }
@@ -112,6 +108,7 @@ impl From<RaysOf> for String {
 }
 
 /// A set of rays.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Rays {
     /// Its name.
     pub of: RaysOf,
@@ -119,6 +116,17 @@ pub struct Rays {
     pub casts: Vec<Cast>,
     /// Whether these are all rays there are, so that their counts have no sampling error: of a picture, of a file.
     pub complete: bool,
+}
+
+/// Whether a scene can have the rays of these sets; of those of a picture it has none without a look, which is no fault.
+///
+/// # Errors
+/// If it cannot: names the scene.
+pub fn check_scene(scene: &Scene, sets: &[RaysOf]) -> Result<(), String> {
+    sets.iter().try_for_each(|set| match *set {
+        RaysOf::Source(source, _) => SourceRays::new(source, scene, 0).map(|_| ()),
+        RaysOf::Traced(_) | RaysOf::Own(_) => Ok(()),
+    })
 }
 
 /// How many rays.

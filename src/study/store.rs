@@ -11,7 +11,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::files::write_atomic;
+use crate::files::{write_atomic, write_atomic_with};
 
 use super::identity::digest;
 use super::records::Summary;
@@ -132,6 +132,27 @@ impl Store {
         self.write("summary.json", &json)
     }
 
+    /// As [`write`](Self::write), for what is too large to be held at once.
+    pub fn write_with(
+        &self,
+        name: &str,
+        write: impl FnOnce(&mut fs::File) -> io::Result<()>,
+    ) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        write_atomic_with(&path, write).map_err(|source| StoreError { path, source })
+    }
+
+    /// Remove a file that an earlier run may have left and this one has not.
+    pub fn remove(&self, name: &str) -> Result<(), StoreError> {
+        let path = self.folder.join(name);
+        match fs::remove_file(&path) {
+            Err(source) if source.kind() != io::ErrorKind::NotFound => {
+                Err(StoreError { path, source })
+            }
+            _ => Ok(()),
+        }
+    }
+
     /// Write a file of the run.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let path = self.folder.join(name);
@@ -154,6 +175,10 @@ mod tests {
             "nodes.csv",
             "bins.csv",
             "samplers.csv",
+            "work.csv",
+            "choices.csv",
+            "hits.csv",
+            "trace.json",
             TIMINGS,
             "summary.json",
             EXPERIMENT,

@@ -26,6 +26,7 @@ const EXAMPLES: &str = "Examples:
   validate run experiments/figure3.toml     every scene and strategy, real meshes
   validate scene spd:balls:4                one scene, every strategy, and which to take
   validate scene model.obj --lines 2^20     your own mesh
+  validate trace model.obj --rays r.csv     your own rays: what they hit and cost
   validate list strategies                  what can be named where";
 
 /// Flags of every command.
@@ -89,12 +90,45 @@ pub enum Command {
         /// Clip straddling triangles and polygons to the parts of a node ("perfect splits"): slower to build, fewer tests.
         #[arg(long)]
         clipped: bool,
+        /// Your own rays, counted in every tree and taken as the real ones: a file as for `trace`.
+        #[arg(long, value_name = "FILE", conflicts_with = "nff")]
+        rays: Option<PathBuf>,
+        /// What these rays ask: `nearest` hit, `any` hit, or `all` (nothing stops them).
+        #[arg(long, value_name = "ASK", requires = "rays", default_value = "nearest")]
+        ask: sahlab::kd::Ask,
         /// Write the scene with its camera, lights and materials to this file instead, for other renderers.
         #[arg(long, value_name = "FILE")]
         nff: Option<PathBuf>,
         /// Significant digits of that file: 17 keep every bit, the original programs write 6.
         #[arg(long, value_name = "N", requires = "nff", default_value_t = 17, value_parser = clap::value_parser!(u8).range(1..=17))]
         digits: u8,
+    },
+    /// Your own rays through one tree: what each hits, and the nodes and tests it takes.
+    ///
+    /// Writes data/trace/hits.csv (ray, object, t, n_K, n_B, n_t; a miss has no object and no t) and data/trace/trace.json.
+    /// Rays begin at t = 0; t, in the file and in what is written, counts in units of the direction, which need not have
+    /// length 1.
+    Trace {
+        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
+        #[arg(value_name = "SCENE")]
+        scene: String,
+        /// .csv with the header ox,oy,oz,dx,dy,dz or ox,oy,oz,dx,dy,dz,tmax (blank: no end), or .npy of shape (n, 6) or
+        /// (n, 7), type '<f8'.
+        #[arg(long, value_name = "FILE")]
+        rays: PathBuf,
+        /// What the rays ask: `nearest` hit; `any` hit, which ends a ray and is the one told; or `all`, where nothing stops a
+        /// ray and the nearest hit is told.
+        #[arg(long, value_name = "ASK", default_value = "nearest")]
+        ask: sahlab::kd::Ask,
+        /// The strategy that builds the tree; `validate list strategies` names them.
+        #[arg(long, default_value = "sah", value_name = "STRATEGY")]
+        strategy: sahlab::kd::Strategy,
+        /// When nodes become leaves, as for `scene`.
+        #[arg(long, default_value = "cost-gain", value_name = "RULE")]
+        stop: sahlab::kd::StopRule,
+        /// Clip straddling triangles and polygons to the parts of a node, as for `scene`.
+        #[arg(long)]
+        clipped: bool,
     },
     /// What can be named: scenes, strategies, samplers, experiments.
     List {

@@ -7,6 +7,8 @@ mod progress;
 mod publish;
 mod render;
 mod run;
+mod scene;
+mod trace;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -15,14 +17,12 @@ use anyhow::{Context, Result, bail};
 use clap::Parser;
 use sahlab::cost::CostModel;
 use sahlab::files::write_atomic;
-use sahlab::kd::{Rules, StopRule, Strategy};
+use sahlab::kd::{Rules, Strategy};
 use sahlab::rays::LineLaw;
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
-use sahlab::study::hits::HitsVsArea;
-use sahlab::study::hits::asked::{Expect, Figure};
 use sahlab::study::plan::{Overrides, PlanError};
-use sahlab::study::{self, Kind, LineRule, Plan};
+use sahlab::study::{self, Plan};
 
 use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
@@ -124,8 +124,34 @@ fn execute(cli: &Cli) -> Result<bool> {
             scene,
             stop,
             clipped,
+            rays,
+            ask,
             ..
-        }) => one_scene(scene, *stop, *clipped, common, overrides),
+        }) => {
+            let asked = scene::OneScene {
+                spec: scene,
+                stop: *stop,
+                clipped: *clipped,
+                own: rays.as_deref().map(|file| (file, *ask)),
+            };
+            scene::one_scene(&asked, common, overrides)
+        }
+        Some(Command::Trace {
+            scene,
+            rays,
+            ask,
+            strategy,
+            stop,
+            clipped,
+        }) => {
+            let rules = Rules {
+                strategy: *strategy,
+                stop: *stop,
+                cost: CostModel::WALD_HAVRAN,
+                clipped: *clipped,
+            };
+            trace::trace(scene, rays, *ask, rules, common)
+        }
         Some(Command::List { what }) => print(&list(*what)).map(|()| true).map_err(Into::into),
         Some(Command::Plots { folder }) => {
             let run = run::read(folder)?;
@@ -188,75 +214,6 @@ fn run_loaded(
         run::print_json(&runs)?;
     }
     Ok(runs.iter().all(Run::held))
-}
-
-/// `validate scene`: the same measurement on one scene, every strategy.
-fn one_scene(
-    spec: &str,
-    stop: StopRule,
-    clipped: bool,
-    common: &Common,
-    overrides: Overrides,
-) -> Result<bool> {
-    let slope_within = if common.quick { 0.02 } else { 0.005 };
-    let lines = match overrides.lines {
-        Some(n) => LineRule::exactly(n),
-        None if common.quick => LineRule::for_error(slope_within, 1 << 16, 1 << 20),
-        None => LineRule::for_error(slope_within, 1 << 18, 1 << 22),
-    };
-    let mut plan = Plan {
-        name: String::new(),
-        command: format!(
-            "validate scene {spec} --stop {stop}{}{}",
-            if clipped { " --clipped" } else { "" },
-            overrides.arguments()
-        ),
-        question: format!(
-            "What does a kd-tree over {spec} cost, and which strategy should build it?"
-        ),
-        seed: overrides.seed.unwrap_or(1),
-        scenes: vec![spec.into()],
-        cost: CostModel::WALD_HAVRAN,
-        quick: common.quick,
-        kind: Kind::HitsVsArea(HitsVsArea {
-            strategies: Strategy::ALL.into(),
-            stop,
-            clipped,
-            nodes: false,
-            lines: lines.map_err(anyhow::Error::msg)?,
-            figure: Figure {
-                scene: spec.into(),
-                strategy: Strategy::Sah,
-            },
-            controls: None,
-            expect: Expect {
-                slope_within,
-                family: 0.01,
-                gate: 0.001,
-            },
-        }),
-        record: None,
-    };
-    let scenes = run::load_scenes(&mut plan, None)?;
-    let quick = if common.quick { "-quick" } else { "" };
-    plan.name = format!(
-        "scene-{}{quick}",
-        sahlab::study::records::file_stem(&plan.scenes[0])
-    );
-    let plans = [(plan, scenes)];
-    let held = run_loaded(&plans, common, screen::scene)?;
-    let [(plan, scenes)] = &plans;
-    if let (false, Some(look)) = (common.dry_run, &scenes[0].look) {
-        let rules = Rules {
-            strategy: Strategy::Sah,
-            stop,
-            cost: plan.cost,
-            clipped,
-        };
-        let [_, plots] = run::folders(plan, common);
-        render::render(&scenes[0], look, &rules, plan.quick, &plots)?;
-    }
-    Ok(held)
 }
 
 /// `validate scene --nff`: the scene as a file.

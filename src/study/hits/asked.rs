@@ -7,6 +7,8 @@ use crate::study::LineRule;
 use crate::study::lines::FEWEST_LINES;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
 
+use super::work::Work;
+
 /// The keys of this kind.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -27,6 +29,8 @@ pub struct HitsVsArea {
     pub figure: Figure,
     /// Which checks are made of the samplers besides those of the run's own lines. None in the quick form.
     pub controls: Option<Controls>,
+    /// Which sets of rays are traced through every tree besides.
+    pub work: Option<Work>,
     /// What is expected.
     pub expect: Expect,
 }
@@ -106,6 +110,9 @@ impl HitsVsArea {
                     format!("{key} = {bound}, but it must be 0 to 1, 1 excluded")
                 })?;
             }
+        }
+        if let Some(work) = &self.work {
+            work.check()?;
         }
         self.lines.check()
     }

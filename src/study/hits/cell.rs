@@ -11,12 +11,13 @@ use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
 use crate::study::identity::{content, digest, line_seed, whole};
-use crate::study::{LineRule, SCHEMA, Watcher};
+use crate::study::ray_sets::Rays;
+use crate::study::{LineRule, SCHEMA, Watcher, work};
 
 use super::findings::Found;
 use super::scores::{FIRST_SCORE, Scoring, WEIGHTED, score_lines};
 use super::spread::Spread;
-use crate::study::records::{BinRecord, CellRecord, NodeRecord, TimingRecord};
+use crate::study::records::{BinRecord, CellRecord, NodeRecord, TimingRecord, WorkRecord};
 
 /// What a cell is made of.
 #[derive(Clone)]
@@ -74,6 +75,8 @@ pub struct CellResult {
     pub record: CellRecord,
     /// The rows of `bins.csv`.
     pub bins: Vec<BinRecord>,
+    /// The rows of `work.csv`.
+    pub work: Vec<WorkRecord>,
     /// The rows of `nodes.csv`, if asked for.
     #[serde(skip)]
     pub nodes: Option<Vec<NodeRecord>>,
@@ -91,10 +94,31 @@ pub const PILOT: u64 = 1 << 16;
 /// If an integer identity fails, if the streams and the plain traversal disagree on any node, or if the tree fails its
 /// audit: each is a bug in the program, never a property of the scene.
 pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult, String> {
+    measure_with(plan, &[], watcher)
+}
+
+/// As [`measure`], and these sets of rays traced through the tree.
+///
+/// # Errors
+/// As [`measure`].
+pub fn measure_with(
+    plan: &CellPlan<'_>,
+    sets: &[&Rays],
+    watcher: &impl Watcher,
+) -> Result<CellResult, String> {
     let (tree, build_s) = plant(plan.scene, &plan.rules)?;
-    let mut result = compare(plan, &tree, &predict(&tree), watcher)?;
+    let prediction = predict(&tree);
+    let mut result = compare(plan, &tree, &prediction, watcher)?;
     if let Some(timing) = &mut result.timing {
         timing.build_s = build_s;
+    }
+    for rays in sets {
+        let cast = rays.casts.len() as u64;
+        watcher.revise(0, cast);
+        let counted = work::count(&tree, &plan.scene.objects, rays);
+        let record = counted.record(plan, rays, plan.rules.cost, &prediction);
+        result.work.push(record);
+        watcher.done(cast);
     }
     Ok(result)
 }
@@ -168,6 +192,7 @@ pub fn compare(
     Ok(CellResult {
         record: found.record(&nodes),
         bins: found.bins(&nodes),
+        work: Vec::new(),
         timing: Some(TimingRecord {
             cell: plan.id.clone(),
             scene: plan.scene.name.clone(),

@@ -7,6 +7,7 @@ pub mod samplers;
 pub mod scores;
 pub mod spread;
 pub mod verdicts;
+pub mod work;
 
 use serde::{Deserialize, Serialize};
 
@@ -14,12 +15,17 @@ use crate::kd::Rules;
 use crate::scene::Scene;
 use crate::stats::{normal_quantile, simultaneous_quantile};
 
-use super::records::{CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, TimingRecord};
+use super::choices::choices;
+use super::identity::{digest, whole};
+use super::records::{
+    CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, TimingRecord, WorkRecord,
+};
 use super::store::{Store, StoreError, TIMINGS};
 use super::{LEVEL, Plan, RunError, Watcher};
 
 pub use asked::HitsVsArea;
-use cell::{CellPlan, CellResult, measure};
+use cell::{CellPlan, CellResult, measure_with};
+use work::Gathered;
 
 /// The cells of a plan in canonical order: scenes, then strategies.
 fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
@@ -32,10 +38,16 @@ fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPl
             clipped: asked.clipped,
         });
         let rules: Vec<Rules> = rules.collect();
+        // Where rays stop depends on all of the scene.
+        let work = asked.work.as_ref();
+        let work = work.map(|work| format!("{} {}", whole(scene), work.identity()));
         for mut cell in CellPlan::of_scene(scene, &rules, plan.seed, asked.lines) {
             let drawn =
                 scene.name == asked.figure.scene && cell.rules.strategy == asked.figure.strategy;
             cell.nodes = asked.nodes || drawn;
+            if let Some(work) = &work {
+                cell.id = digest(format!("{} {work}", cell.id).as_bytes());
+            }
             cells.push(cell);
         }
     }
@@ -120,6 +132,7 @@ pub(super) fn run(
         watcher.announce(&format!("counting lines through {left} cell{s}"));
     }
     let mut results = Vec::new();
+    let mut gathered = Gathered::new(asked.work.as_ref());
     for (cell, found) in planned.iter().zip(found) {
         if let Some(found) = found {
             watcher.skip(asked.lines.guess());
@@ -128,7 +141,10 @@ pub(super) fn run(
         }
         let place = format!("{} {}", cell.scene.name, cell.rules.strategy);
         watcher.begin(&place);
-        let result = measure(cell, watcher).map_err(|fault| RunError::Bug { place, fault })?;
+        let result = gathered
+            .of(cell.scene, cell.line_seed)
+            .and_then(|sets| measure_with(cell, &sets, watcher))
+            .map_err(|fault| RunError::Bug { place, fault })?;
         keep(store, &result)?;
         results.push(result);
     }
@@ -161,8 +177,29 @@ fn write(
         store.write(TIMINGS, TIMINGS_HEADER.as_bytes())?;
     }
     store.write_rows("samplers.csv", samplers)?;
+    write_work(asked, results, store)?;
     store.write_summary(&summarise(plan, asked, &records, samplers))
 }
+
+/// What rays did in every tree, and which strategy to take for them.
+fn write_work(
+    asked: &HitsVsArea,
+    results: &[CellResult],
+    store: &Store,
+) -> Result<(), StoreError> {
+    if asked.work.is_none() {
+        store.remove(WORK)?;
+        return store.remove(CHOICES);
+    }
+    let work: Vec<WorkRecord> = results.iter().flat_map(|r| r.work.clone()).collect();
+    store.write_rows(WORK, &work)?;
+    store.write_rows(CHOICES, choices(&work))?;
+    Ok(())
+}
+
+/// The files of a run that traces rays.
+const WORK: &str = "work.csv";
+const CHOICES: &str = "choices.csv";
 
 /// The cells of a dry run, a line each.
 pub(super) fn describe(plan: &Plan, asked: &HitsVsArea, scenes: &[Scene]) -> String {
@@ -177,7 +214,10 @@ pub(super) fn describe(plan: &Plan, asked: &HitsVsArea, scenes: &[Scene]) -> Str
         )
     };
     let cells = cells(plan, asked, scenes);
-    let head = format!("stop {}, seed {}\n", asked.stop, plan.seed);
+    let mut head = format!("stop {}, seed {}\n", asked.stop, plan.seed);
+    if let Some(work) = &asked.work {
+        head += &format!("{}\n", work.describe());
+    }
     head + &cells.iter().map(line).collect::<String>()
 }
 

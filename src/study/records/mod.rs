@@ -7,6 +7,7 @@
 mod calibration;
 mod split_cost;
 mod strategies;
+mod trace;
 mod work;
 
 use serde::{Deserialize, Serialize};
@@ -16,7 +17,9 @@ pub use calibration::{
 };
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
-pub use work::{StepRecord, WorkRecord};
+
+pub use trace::{HitRecord, TraceRecord};
+pub use work::{StepRecord, StrategyChoiceRecord, WorkRecord};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 2;

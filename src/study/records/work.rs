@@ -110,4 +110,35 @@ pub struct StepRecord {
     pub first_misses: u64,
     /// Of these, lines not found in one of 1 MiB either.
     pub second_misses: u64,
+/// Which strategy to take for a set of rays in a scene, by the areas and by the counts. A row of `choices.csv`, made from the
+/// rows of `work.csv` with the same scene, stop rule and rays.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct StrategyChoiceRecord {
+    /// Scene of the trees.
+    pub scene: String,
+    /// Stop rule of the trees.
+    pub stop: String,
+    /// The set of rays.
+    pub rays: String,
+    /// What they ask.
+    pub ask: String,
+    /// Rays of the set.
+    pub cast: u64,
+    /// Strategies compared.
+    pub strategies: u64,
+    /// Kendall's tau-b over the strategies between C predicted and C counted; empty where all cost the same.
+    pub kendall_tau: Option<f64>,
+    /// The strategy whose tree has the least C predicted.
+    pub predicted: String,
+    /// C predicted of that tree.
+    pub predicted_c_predicted: f64,
+    /// C counted of that tree.
+    pub predicted_c_counted: f64,
+    /// The strategy whose tree has the least C counted.
+    pub least: String,
+    /// C predicted of that tree.
+    pub least_c_predicted: f64,
+    /// C counted of that tree.
+    pub least_c_counted: f64,
 }
