@@ -28,7 +28,7 @@ pub enum Source {
     /// over the cone around the bounding sphere, kept if they hit the box. A camera that sees all of the scene.
     Eye,
     /// Uniform points of the objects' surfaces, directions by the cosine law around the normal, either side as likely: light
-    /// reflected by dull surfaces.
+    /// reflected by dull surfaces. They begin a little off the surface, or rounding would end half of them where they start.
     Objects,
 }
 
@@ -98,6 +98,9 @@ enum Drawn<'a> {
     Objects(SurfacePoints<'a>),
 }
 
+/// Where rays from surfaces begin, as a share of the box's diagonal.
+const OFFSET: f64 = 1e-9;
+
 /// Stream of the generator that belongs to no ray.
 const ONCE: u64 = u64::MAX;
 
@@ -145,7 +148,7 @@ impl<'a> SourceRays<'a> {
             };
             return cast(
                 Line::new(origin, cosine_around(side, &mut rng)),
-                Span::from(0.0),
+                Span::from(OFFSET * self.world.extent().length()),
             );
         }
         loop {
@@ -201,6 +204,7 @@ fn cosine_around(normal: DVec3, rng: &mut impl Rng) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::{Objects, Triangle};
 
     #[test]
     fn names_read_back() {
@@ -233,6 +237,20 @@ mod tests {
                 Source::Eye => assert!(mean > 0.9 && mean < 0.999),
                 _ => assert!(mean < 0.25, "{source} {mean}"),
             }
+        }
+    }
+
+    #[test]
+    fn rays_from_a_flat_object_leave_it() {
+        let corners = [[0.1, 0.2, 0.3], [1.3, 0.1, -0.7], [0.4, 1.9, 0.2]].map(DVec3::from);
+        let objects = Objects {
+            triangles: vec![Triangle(corners)],
+            ..Objects::default()
+        };
+        let scene = Scene::new("one triangle", objects, Vec::new()).expect("a scene");
+        let rays = SourceRays::new(Source::Objects, &scene, 1).expect("rays");
+        for i in 0..2000 {
+            assert_eq!(scene.objects.intersect(0, &rays.cast(i).ray()), None, "{i}");
         }
     }
 
