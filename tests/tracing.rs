@@ -3,9 +3,9 @@
 
 mod common;
 
-use common::{Leaves, rules};
+use common::{Leaves, rules, target};
 use glam::DVec3;
-use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere};
+use sahlab::geom::{Cone, Line, Objects, Polygon, Ray, Span, Sphere};
 use sahlab::kd::traverse::occluded_watched;
 use sahlab::kd::{
     Hit, NodeKind, Rules, Stack, Strategy, Tracing, Tree, Work, build, build_objects, nearest,
@@ -19,38 +19,6 @@ fn brute_force(objects: &Objects, ray: &Ray) -> Option<Hit> {
         Some(t) => Hit::nearer(best, object, t),
         None => best,
     })
-}
-
-/// A point of an object that structured rays go for: a corner or an edge's middle, a pole of a sphere, the rim of a cone or
-/// the middle of its side.
-fn target(objects: &Objects, i: usize) -> DVec3 {
-    let corner = |corners: &[DVec3]| {
-        let a = corners[i % corners.len()];
-        if i.is_multiple_of(2) {
-            a
-        } else {
-            0.5 * (a + corners[(i + 1) % corners.len()])
-        }
-    };
-    match objects.get((i % objects.len()) as u32) {
-        Object::Triangle(t) => corner(&t.0),
-        Object::Polygon(p) => corner(p.corners()),
-        Object::Sphere(s) => s.centre + s.radius * DVec3::AXES[i % 3],
-        Object::Cone(c) => {
-            let across = (c.apex - c.base)
-                .cross(DVec3::AXES[i % 3])
-                .normalize_or_zero();
-            let rim = [
-                c.base + c.base_radius * across,
-                c.apex + c.apex_radius * across,
-            ];
-            if i.is_multiple_of(2) {
-                rim[i / 2 % 2]
-            } else {
-                0.5 * (rim[0] + rim[1])
-            }
-        }
-    }
 }
 
 /// Rays of every hard family.

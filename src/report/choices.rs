@@ -15,7 +15,9 @@ const EQUAL: f64 = 0.005;
 
 /// A row for each set of rays; of a run of several scenes, for each scene and set.
 pub fn table(choices: &[StrategyChoiceRecord]) -> Table {
-    let scenes = choices.iter().any(|choice| choice.scene != choices[0].scene);
+    let scenes = choices
+        .iter()
+        .any(|choice| choice.scene != choices[0].scene);
     let mut columns = vec![
         Column::left("rays", "rays"),
         Column::left("areas take", "predicted"),
@@ -126,9 +128,16 @@ fn trust(c: &StrategyChoiceRecord) -> [Vec<String>; 2] {
         None => "the best costs nothing".to_owned(),
     };
     let near = loss(c).is_some_and(|loss| loss <= MOST_LOSS);
-    tell(near, format!("the choice of a strategy ({}, {above})", c.predicted));
+    tell(
+        near,
+        format!("the choice of a strategy ({}, {above})", c.predicted),
+    );
     if let Some(tau) = c.kendall_tau {
-        let order = format!("the order of all {} (Kendall's tau {})", c.strategies, fixed(tau, 2));
+        let order = format!(
+            "the order of all {} (Kendall's tau {})",
+            c.strategies,
+            fixed(tau, 2)
+        );
         tell(tau >= ORDERED, order);
     }
     if let Some(ratio) = ratio(c) {
@@ -184,7 +193,10 @@ mod tests {
         assert!(equal.contains("(sah, none is better) and the cost (counted is 1.00 times it)."));
         // Rays that meet no tree.
         let free = with(None, 100.0, 0.0, 0.0);
-        assert!(free.contains("none is better), not for the cost (counted is 0 times it)."), "{free}");
+        assert!(
+            free.contains("none is better), not for the cost (counted is 0 times it)."),
+            "{free}"
+        );
     }
 
     #[test]
@@ -205,7 +217,10 @@ mod tests {
         assert_eq!(table(&all).keys, 1);
         all[1].scene = "another".into();
         let several = table(&all);
-        assert_eq!((several.keys, several.columns.len(), several.rows[0].len()), (2, 9, 9));
+        assert_eq!(
+            (several.keys, several.columns.len(), several.rows[0].len()),
+            (2, 9, 9)
+        );
         all[0].predicted_c_predicted = 0.0;
         all[0].kendall_tau = None;
         assert!(!table(&all).to_csv().contains("NaN"));

@@ -36,7 +36,12 @@ fn table(record: &TraceRecord) -> Table {
     let row = |(name, counted, predicted): (&str, f64, f64)| {
         let cell = |value: f64| Cell::Value(value, digits_for(value, 4));
         let ratio = Cell::Value(counted / predicted, 3);
-        vec![Cell::Text(name.into()), cell(counted), cell(predicted), ratio]
+        vec![
+            Cell::Text(name.into()),
+            cell(counted),
+            cell(predicted),
+            ratio,
+        ]
     };
     Table {
         caption: format!(

@@ -23,9 +23,10 @@ fn choice(trees: &[&WorkRecord]) -> Option<StrategyChoiceRecord> {
         trees.iter().min_by(by_cost)
     };
     let costs = |cost: fn(&WorkRecord) -> f64| trees.iter().map(|t| cost(t)).collect::<Vec<_>>();
-    let (predicted, counted) = ((|t: &WorkRecord| t.c_predicted) as fn(&_) -> _, |t: &WorkRecord| {
-        t.c_counted
-    });
+    let (predicted, counted) = (
+        (|t: &WorkRecord| t.c_predicted) as fn(&_) -> _,
+        |t: &WorkRecord| t.c_counted,
+    );
     let (chosen, best) = least(predicted).zip(least(counted))?;
     Some(StrategyChoiceRecord {
         scene: chosen.scene.clone(),
@@ -91,7 +92,10 @@ mod tests {
         let [lines, own] = &choices(&rows)[..] else {
             panic!("two sets");
         };
-        assert_eq!((lines.rays.as_str(), lines.kendall_tau), ("lines", Some(1.0)));
+        assert_eq!(
+            (lines.rays.as_str(), lines.kendall_tau),
+            ("lines", Some(1.0))
+        );
         assert_eq!((lines.predicted.as_str(), lines.least.as_str()), ("b", "b"));
         assert_eq!((own.predicted.as_str(), own.least.as_str()), ("b", "a"));
         assert_eq!((own.predicted_c_counted, own.least_c_counted), (1.5, 1.0));

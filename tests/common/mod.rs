@@ -3,7 +3,7 @@
 
 use glam::DVec3;
 use sahlab::cost::CostModel;
-use sahlab::geom::{Aabb, Line};
+use sahlab::geom::{Aabb, Line, Object, Objects};
 use sahlab::kd::{Probe, Rules, StopRule, Strategy, Tree, build};
 use sahlab::rays::{SurfaceLines, Uniforms};
 
@@ -104,5 +104,37 @@ pub struct Leaves(pub Vec<u32>);
 impl Probe for Leaves {
     fn leaf(&mut self, node: u32, _: u32) {
         self.0.push(node);
+    }
+}
+
+/// A point of an object that structured rays go for: a corner or an edge's middle, a pole of a sphere, the rim of a cone or
+/// the middle of its side.
+pub fn target(objects: &Objects, i: usize) -> DVec3 {
+    let corner = |corners: &[DVec3]| {
+        let a = corners[i % corners.len()];
+        if i.is_multiple_of(2) {
+            a
+        } else {
+            0.5 * (a + corners[(i + 1) % corners.len()])
+        }
+    };
+    match objects.get((i % objects.len()) as u32) {
+        Object::Triangle(t) => corner(&t.0),
+        Object::Polygon(p) => corner(p.corners()),
+        Object::Sphere(s) => s.centre + s.radius * DVec3::AXES[i % 3],
+        Object::Cone(c) => {
+            let across = (c.apex - c.base)
+                .cross(DVec3::AXES[i % 3])
+                .normalize_or_zero();
+            let rim = [
+                c.base + c.base_radius * across,
+                c.apex + c.apex_radius * across,
+            ];
+            if i.is_multiple_of(2) {
+                rim[i / 2 % 2]
+            } else {
+                0.5 * (rim[0] + rim[1])
+            }
+        }
     }
 }

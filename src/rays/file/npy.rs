@@ -11,8 +11,7 @@ use crate::geom::Cast;
 const MAGIC: &[u8] = b"\x93NUMPY";
 
 /// What would be right.
-const EXPECTED: &str =
-    "expected an array of type '<f8', in C order, of shape (n, 6) or (n, 7), as numpy.save writes it";
+const EXPECTED: &str = "expected an array of type '<f8', in C order, of shape (n, 6) or (n, 7), as numpy.save writes it";
 
 /// The rays of a file's bytes; `name` names it in errors.
 pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Vec<Cast>, RayFileError> {
@@ -33,14 +32,17 @@ pub(super) fn parse(name: &str, bytes: &[u8]) -> Result<Vec<Cast>, RayFileError>
         let right = format!("its header says {rows} rows of {columns} numbers");
         return Err(Fault::new(wrong, right).at(name.into()));
     }
-    let rays = data.chunks_exact(row_bytes).enumerate().map(|(row, bytes)| {
-        let mut numbers = [f64::INFINITY; 7];
-        for (number, bytes) in numbers.iter_mut().zip(bytes.chunks_exact(8)) {
-            *number = f64::from_le_bytes(bytes.try_into().expect("chunks of eight bytes"));
-        }
-        let [parts @ .., tmax] = numbers;
-        cast(parts, tmax).map_err(|fault| fault.at(format!("{name}: row {row}")))
-    });
+    let rays = data
+        .chunks_exact(row_bytes)
+        .enumerate()
+        .map(|(row, bytes)| {
+            let mut numbers = [f64::INFINITY; 7];
+            for (number, bytes) in numbers.iter_mut().zip(bytes.chunks_exact(8)) {
+                *number = f64::from_le_bytes(bytes.try_into().expect("chunks of eight bytes"));
+            }
+            let [parts @ .., tmax] = numbers;
+            cast(parts, tmax).map_err(|fault| fault.at(format!("{name}: row {row}")))
+        });
     rays.collect()
 }
 

@@ -28,8 +28,20 @@ fn header(shape: &str) -> String {
 }
 
 const ROWS: [f64; 14] = [
-    0.1, 0.2, 0.3, 0.0, -0.0, 2.0, 5.0, // one row
-    1.0, 2.0, 3.0, 1e-320, 1e50, 1.0, f64::INFINITY,
+    0.1,
+    0.2,
+    0.3,
+    0.0,
+    -0.0,
+    2.0,
+    5.0, // one row
+    1.0,
+    2.0,
+    3.0,
+    1e-320,
+    1e50,
+    1.0,
+    f64::INFINITY,
 ];
 
 #[test]
@@ -56,10 +68,22 @@ fn both_forms_give_the_same_rays() {
 #[test]
 fn wrong_text_is_told_with_its_line() {
     for (text, told) in [
-        ("", "r.csv: the file is empty; expected 'ox,oy,oz,dx,dy,dz' or 'ox,"),
-        ("ox,oy\n1,2\n", "r.csv:1: the header is 'ox,oy'; expected 'ox,"),
-        ("1,2,3,4,5,6\n", "r.csv:1: the header is '1,2,3,4,5,6'; expected"),
-        (HEAD, "r.csv: there are no rays in it; expected at least one"),
+        (
+            "",
+            "r.csv: the file is empty; expected 'ox,oy,oz,dx,dy,dz' or 'ox,",
+        ),
+        (
+            "ox,oy\n1,2\n",
+            "r.csv:1: the header is 'ox,oy'; expected 'ox,",
+        ),
+        (
+            "1,2,3,4,5,6\n",
+            "r.csv:1: the header is '1,2,3,4,5,6'; expected",
+        ),
+        (
+            HEAD,
+            "r.csv: there are no rays in it; expected at least one",
+        ),
     ] {
         let error = csv(text).expect_err(text);
         assert!(error.starts_with(told), "{error}");
@@ -72,9 +96,18 @@ fn wrong_text_is_told_with_its_line() {
         ("1,2,3,4,NaN,6,", "dy is NaN; it must be a finite number"),
         ("1e999,2,3,4,5,6,", "ox is inf; it must be a finite number"),
         ("1,2,3,0,-0.0,0,", "the direction is zero; at least one of"),
-        ("1,2,3,0,1e-51,0,", "the largest part of the direction is 1e-51; it must lie within 1e-50 to 1e50"),
-        ("1,2,3,1,-1e51,0,", "the largest part of the direction is 1e51; it must"),
-        ("1,2,3,4,5,6,-1e-9", "tmax is -0.000000001; it must be 0 or more"),
+        (
+            "1,2,3,0,1e-51,0,",
+            "the largest part of the direction is 1e-51; it must lie within 1e-50 to 1e50",
+        ),
+        (
+            "1,2,3,1,-1e51,0,",
+            "the largest part of the direction is 1e51; it must",
+        ),
+        (
+            "1,2,3,4,5,6,-1e-9",
+            "tmax is -0.000000001; it must be 0 or more",
+        ),
         ("1,2,3,4,5,6,nan", "tmax is NaN; it must"),
         ("1,2,3,4,5,6,-inf", "tmax is -inf; it must"),
     ] {
@@ -84,14 +117,21 @@ fn wrong_text_is_told_with_its_line() {
     }
     let bytes = [HEAD.as_bytes(), b"1,2,3,4,5,6,\n1,2,3,\xff,5,6,\n"].concat();
     let error = csv::parse("r.csv", &bytes[..]).expect_err("not text");
-    assert!(error.to_string().starts_with("r.csv:3: not UTF-8"), "{error}");
+    assert!(
+        error.to_string().starts_with("r.csv:3: not UTF-8"),
+        "{error}"
+    );
 }
 
 #[test]
 fn wrong_arrays_are_told_with_their_row() {
     let good = header("(2, 7)");
     for (old, new, told) in [
-        ("<f8", "<f4", "r.npy: its type is '<f4'; expected an array of type '<f8'"),
+        (
+            "<f8",
+            "<f4",
+            "r.npy: its type is '<f4'; expected an array of type '<f8'",
+        ),
         ("<f8", ">f8", "r.npy: its type is '>f8'"),
         ("'<f8'", "[('x', '<f8')]", "r.npy: its type has fields"),
         ("False", "True", "r.npy: it is in Fortran order"),
@@ -99,8 +139,16 @@ fn wrong_arrays_are_told_with_their_row() {
         ("(2, 7)", "(14,)", "r.npy: its shape is (14,)"),
         ("(2, 7)", "(1, 2, 7)", "r.npy: its shape is (1, 2, 7)"),
         ("(2, 7)", "(0, 7)", "r.npy: there are no rays in it"),
-        ("(2, 7)", "(3, 7)", "r.npy: row 2: the file ends before its end; its header says 3 rows of 7"),
-        ("(2, 7)", "(18446744073709551615, 7)", "r.npy: row 2: the file ends"),
+        (
+            "(2, 7)",
+            "(3, 7)",
+            "r.npy: row 2: the file ends before its end; its header says 3 rows of 7",
+        ),
+        (
+            "(2, 7)",
+            "(18446744073709551615, 7)",
+            "r.npy: row 2: the file ends",
+        ),
         ("(2, 7)", "(1, 7)", "r.npy: something follows the last row"),
         ("(2, 7)", "(2, -7)", "r.npy: its shape is (2, -7)"),
         ("'shape'", "'form'", "r.npy: its header has no 'shape'"),
@@ -115,12 +163,19 @@ fn wrong_arrays_are_told_with_their_row() {
         (0, "r.npy: does not begin as a .npy file does"),
         (7, "r.npy: the file ends within its header"),
         (40, "r.npy: the file ends within its header"),
-        (whole.len() - 1, "r.npy: row 1: the file ends before its end"),
+        (
+            whole.len() - 1,
+            "r.npy: row 1: the file ends before its end",
+        ),
     ] {
         let error = npy(&whole[..length]).expect_err(told);
         assert!(error.starts_with(told), "{error}");
     }
-    assert!(npy(&file(9, &good, &ROWS)).expect_err("version").starts_with("r.npy: of version 9"));
+    assert!(
+        npy(&file(9, &good, &ROWS))
+            .expect_err("version")
+            .starts_with("r.npy: of version 9")
+    );
     let mut rows = ROWS;
     rows[9] = f64::NAN;
     let error = npy(&file(1, &good, &rows)).expect_err("not finite");

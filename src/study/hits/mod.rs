@@ -182,11 +182,7 @@ fn write(
 }
 
 /// What rays did in every tree, and which strategy to take for them.
-fn write_work(
-    asked: &HitsVsArea,
-    results: &[CellResult],
-    store: &Store,
-) -> Result<(), StoreError> {
+fn write_work(asked: &HitsVsArea, results: &[CellResult], store: &Store) -> Result<(), StoreError> {
     if asked.work.is_none() {
         store.remove(WORK)?;
         return store.remove(CHOICES);

@@ -38,12 +38,16 @@ impl Work {
             key: "work.rays",
             message: wrong.message,
         })?;
-        wrong_unless((FEWEST..=MOST).contains(&self.number), "work.number", || {
-            format!(
-                "work.number = {}, but it must be {FEWEST} to {MOST}",
-                self.number
-            )
-        })?;
+        wrong_unless(
+            (FEWEST..=MOST).contains(&self.number),
+            "work.number",
+            || {
+                format!(
+                    "work.number = {}, but it must be {FEWEST} to {MOST}",
+                    self.number
+                )
+            },
+        )?;
         wrong_unless(
             (1..=MOST_PIXELS).contains(&self.pixels),
             "work.pixels",
