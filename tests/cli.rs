@@ -455,6 +455,7 @@ fn lists_and_help() {
         &["--help"][..],
         &["run", "--help"],
         &["scene", "--help"],
+        &["trace", "--help"],
         &["publish", "--help"],
     ] {
         validate(folder.path())

@@ -54,7 +54,8 @@ pub fn table(choices: &[StrategyChoiceRecord]) -> Table {
     Table {
         caption: "What areas tell of rays that are not isotropic lines without end. The strategy of least C predicted, its C a \
                   ray predicted and counted, counted over predicted; Kendall's tau over all strategies between C predicted \
-                  and counted (1: the same order); the strategy of least C counted, and by how much the areas' costs more."
+                  and counted (1: the same order); the strategy of least C counted, and the per cent by \
+                  which the areas' choice costs more."
             .to_owned(),
         columns,
         keys: 1 + usize::from(scenes),

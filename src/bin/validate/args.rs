@@ -78,7 +78,8 @@ pub enum Command {
         #[arg(required = true, value_name = "EXPERIMENT.toml")]
         experiments: Vec<PathBuf>,
     },
-    /// One scene: its objects, a tree per strategy, predicted and counted work, which strategy to take.
+    /// One scene: its objects, a tree per strategy, predicted and counted work (of lines, of rays that stop, of your own), which
+    /// strategy to take, and for which rays the prediction can be trusted.
     Scene {
         /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
