@@ -5,7 +5,7 @@ use statrs::distribution::Binomial;
 use super::figure3::quantile;
 
 use super::{Content, Hits, Run};
-use crate::study::records::{CellRecord, StrategyChoiceRecord, NodeRecord, Summary};
+use crate::study::records::{CellRecord, NodeRecord, StrategyChoiceRecord, Summary};
 
 pub const LINES: u64 = 1 << 20;
 

@@ -6,7 +6,7 @@ use super::read::{optional_rows, rows_of};
 use super::table::Table;
 use super::{Figure, ReportError, choices, cost, figure3, slopes, tables};
 use crate::study::records::{
-    BinRecord, CellRecord, StrategyChoiceRecord, NodeRecord, SamplerRecord, Summary, TimingRecord,
+    BinRecord, CellRecord, NodeRecord, SamplerRecord, StrategyChoiceRecord, Summary, TimingRecord,
 };
 
 /// The files of a run of kind `hits-vs-area`.

@@ -1,7 +1,7 @@
 //! Experiments: from a file to cells, from cells to records, from records to verdicts. One folder a kind.
 
-pub mod cost_vs_work;
 pub mod choices;
+pub mod cost_vs_work;
 pub mod hits;
 pub mod identity;
 pub mod lines;

@@ -5,7 +5,7 @@ use std::path::Path;
 
 use predicates::prelude::*;
 use predicates::str::contains;
-use sahlab::study::records::{ChoiceRecord, WorkRecord};
+use sahlab::study::records::{StrategyChoiceRecord, WorkRecord};
 use serde::de::DeserializeOwned;
 use tempfile::tempdir;
 
@@ -88,7 +88,7 @@ fn own_rays_are_the_real_ones_of_a_scene() {
         let far = (row.c_counted - row.c_predicted).abs();
         assert!(far <= 5.0 * row.c_se.unwrap(), "{row:?}");
     }
-    let choices: Vec<ChoiceRecord> = rows(&data, "choices.csv");
+    let choices: Vec<StrategyChoiceRecord> = rows(&data, "choices.csv");
     assert_eq!(
         choices.iter().map(|c| c.rays.as_str()).collect::<Vec<_>>(),
         sets

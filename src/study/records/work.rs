@@ -110,6 +110,8 @@ pub struct StepRecord {
     pub first_misses: u64,
     /// Of these, lines not found in one of 1 MiB either.
     pub second_misses: u64,
+}
+
 /// Which strategy to take for a set of rays in a scene, by the areas and by the counts. A row of `choices.csv`, made from the
 /// rows of `work.csv` with the same scene, stop rule and rays.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
