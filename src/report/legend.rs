@@ -21,6 +21,8 @@ pub enum Key {
     Area(RGBAColor),
     /// The colours of a density, from 1 to this count and more.
     Density(u64),
+    /// The same colours between two texts.
+    Scale(&'static str, &'static str),
 }
 
 /// A legend in rows between two edges, from this baseline downwards. Returns the last baseline.
@@ -36,6 +38,7 @@ pub fn legend(
         let symbol = match key {
             Key::Mark(_) => 9.0,
             Key::Density(most) => 39.0 + text_width(&at_least(*most), SMALL),
+            Key::Scale(from, to) => 39.0 + text_width(from, SMALL) + text_width(to, SMALL),
             _ => 18.0,
         };
         let width = symbol + text_width(text, MEDIUM);
@@ -78,26 +81,24 @@ fn draw_key(pen: &Pen, key: &Key, (x, y): (f64, f64)) {
         Key::Line(colour) => pen.line(&[(x, y), (x + 14.0, y)], colour, 1.1),
         Key::Dashes(colour) => pen.dashes(&[(x, y), (x + 14.0, y)], colour, 0.9),
         Key::Area(colour) => pen.rectangle((x, y - 3.0), (x + 14.0, y + 3.0), colour),
-        Key::Density(most) => {
-            const STEPS: usize = 32;
-            let (left, width) = (x + 6.0, 28.0 / STEPS as f64);
-            pen.text("1", (x, y), SMALL, MUTED, (HPos::Left, VPos::Center));
-            for i in 0..STEPS {
-                let at = left + width * i as f64;
-                let colour = viridis(i as f64 / (STEPS - 1) as f64);
-                // Each reaches under the next, so that no seam shows.
-                pen.rectangle((at, y - 3.0), (at + 1.3 * width, y + 3.0), colour);
-            }
-            let end = left + width * STEPS as f64 + 2.0;
-            pen.text(
-                &at_least(most),
-                (end, y),
-                SMALL,
-                MUTED,
-                (HPos::Left, VPos::Center),
-            );
-        }
+        Key::Density(most) => scale(pen, (x, y), "1", &at_least(most)),
+        Key::Scale(from, to) => scale(pen, (x, y), from, to),
     }
+}
+
+/// The colours from one text to another.
+fn scale(pen: &Pen, (x, y): (f64, f64), from: &str, to: &str) {
+    const STEPS: usize = 32;
+    let (left, width) = (x + 2.0 + text_width(from, SMALL), 28.0 / STEPS as f64);
+    pen.text(from, (x, y), SMALL, MUTED, (HPos::Left, VPos::Center));
+    for i in 0..STEPS {
+        let at = left + width * i as f64;
+        let colour = viridis(i as f64 / (STEPS - 1) as f64);
+        // Each reaches under the next, so that no seam shows.
+        pen.rectangle((at, y - 3.0), (at + 1.3 * width, y + 3.0), colour);
+    }
+    let end = left + width * STEPS as f64 + 2.0;
+    pen.text(to, (end, y), SMALL, MUTED, (HPos::Left, VPos::Center));
 }
 
 fn at_least(count: u64) -> String {

@@ -4,6 +4,7 @@
 //! knows of trees, scenes or lines: the only imports from the rest are the row types of [`crate::study::records`], the
 //! cost formula and [`crate::files`].
 
+mod assumptions;
 mod axis;
 mod bitmap;
 mod canvas;
@@ -44,6 +45,7 @@ use std::{fs, io};
 
 use crate::files::write_atomic;
 
+pub use assumptions::Assumptions;
 pub use bitmap::Bitmap;
 pub use cost_vs_work::CostVsWork;
 pub use figure::Figure;
@@ -146,6 +148,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
         Content::Termination(trees) => trees.figures(&run.summary)?,
         Content::SplitCost(nodes) => nodes.figures(&run.summary),
         Content::CostVsWork(trees) => trees.figures(&run.summary),
+        Content::Assumptions(rays) => rays.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -190,6 +193,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
         Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
         Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), Vec::new()),
+        Content::Assumptions(rays) => (named(rays.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

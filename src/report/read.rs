@@ -8,6 +8,7 @@ use serde::de::DeserializeOwned;
 
 use super::ReportError;
 use super::cost_vs_work::CostVsWork;
+use super::assumptions::Assumptions;
 use super::hits::Hits;
 use super::split_cost::SplitCost;
 use super::strategies::Strategies;
@@ -38,6 +39,8 @@ pub enum Content {
     SplitCost(SplitCost),
     /// Kind `cost-vs-work`.
     CostVsWork(CostVsWork),
+    /// Kind `assumptions`.
+    Assumptions(Assumptions),
 }
 
 impl Run {
@@ -84,6 +87,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         "termination" => Content::Termination(Termination(Strategies::read(dir)?)),
         "split-cost" => Content::SplitCost(SplitCost::read(dir)?),
         "cost-vs-work" => Content::CostVsWork(CostVsWork::read(dir)?),
+        "assumptions" => Content::Assumptions(Assumptions::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

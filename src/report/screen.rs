@@ -18,6 +18,7 @@ pub fn study(run: &Run) -> String {
         Content::Termination(trees) => answer(run, &trees.short_table().to_text(WIDTH)),
         Content::SplitCost(nodes) => answer(run, &nodes.screen(WIDTH)),
         Content::CostVsWork(trees) => answer(run, &trees.screen(WIDTH)),
+        Content::Assumptions(rays) => answer(run, &rays.screen(WIDTH)),
     }
 }
 

@@ -1,5 +1,6 @@
 //! Experiments: from a file to cells, from cells to records, from records to verdicts. One folder a kind.
 
+pub mod assumptions;
 pub mod choices;
 pub mod cost_vs_work;
 pub mod hits;
@@ -68,6 +69,7 @@ pub fn run(
         }
         Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher)?,
         Kind::CostVsWork(asked) => cost_vs_work::run(plan, asked, scenes, store, watcher)?,
+        Kind::Assumptions(asked) => assumptions::run(plan, asked, scenes, store, watcher)?,
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -78,9 +80,10 @@ pub fn run(
 
 /// Whether the scenes have what the kind of experiment needs; the error names the first that has not.
 pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
-    let traces = match plan.kind {
+    let traces = match &plan.kind {
         Kind::HitsVsArea(_) | Kind::SplitCost(_) | Kind::CostVsWork(_) => false,
         Kind::Strategies(_) | Kind::Termination(_) => true,
+        Kind::Assumptions(asked) => return asked.check_scenes(scenes),
     };
     if let Kind::HitsVsArea(HitsVsArea {
         work: Some(work), ..
@@ -109,5 +112,6 @@ pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
         }
         Kind::SplitCost(asked) => split_cost::describe(plan, asked, scenes),
         Kind::CostVsWork(asked) => cost_vs_work::describe(plan, asked, scenes),
+        Kind::Assumptions(asked) => assumptions::describe(plan, asked, scenes),
     }
 }

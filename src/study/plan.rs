@@ -20,6 +20,7 @@ use crate::cost::CostModel;
 use crate::kd::Strategy;
 
 use super::cost_vs_work::CostVsWork;
+use super::assumptions::Assumptions;
 use super::hits::HitsVsArea;
 use super::record::Record;
 use super::records::{Summary, file_stem};
@@ -69,16 +70,19 @@ pub enum Kind {
     SplitCost(SplitCost),
     /// Predicted counts, counted ones and seconds of many kinds of rays.
     CostVsWork(CostVsWork),
+    /// What the metric is worth where its assumptions fail.
+    Assumptions(Assumptions),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 5] = [
+    pub const NAMES: [&str; 6] = [
         "hits-vs-area",
         "strategies",
         "termination",
         "split-cost",
         "cost-vs-work",
+        "assumptions",
     ];
 
     /// The name in files.
@@ -89,6 +93,7 @@ impl Kind {
             Self::Termination(_) => Self::NAMES[2],
             Self::SplitCost(_) => Self::NAMES[3],
             Self::CostVsWork(_) => Self::NAMES[4],
+            Self::Assumptions(_) => Self::NAMES[5],
         }
     }
 
@@ -98,6 +103,7 @@ impl Kind {
             Self::Strategies(asked) | Self::Termination(asked) => asked.check(scenes),
             Self::SplitCost(asked) => asked.check(scenes),
             Self::CostVsWork(asked) => asked.check(scenes),
+            Self::Assumptions(asked) => asked.check(scenes),
         }
     }
 }
@@ -112,7 +118,7 @@ pub fn is_folder_name(name: &str) -> bool {
 }
 
 /// The keys that every kind has.
-const HEAD: [&str; 5] = ["kind", "question", "seed", "scenes", "cost"];
+const HEAD: [&str; 6] = ["kind", "question", "seed", "scenes", "cost"];
 
 /// What stands in them.
 #[derive(Deserialize)]
@@ -223,6 +229,7 @@ impl Plan {
             "termination" => Kind::Termination(asked(rest)?),
             "split-cost" => Kind::SplitCost(asked(rest)?),
             "cost-vs-work" => Kind::CostVsWork(asked(rest)?),
+            "assumptions" => Kind::Assumptions(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -313,7 +320,8 @@ impl Plan {
             Kind::Strategies(_)
             | Kind::Termination(_)
             | Kind::SplitCost(_)
-            | Kind::CostVsWork(_) => {}
+            | Kind::CostVsWork(_)
+            | Kind::Assumptions(_) => {}
         }
     }
 
@@ -328,6 +336,10 @@ impl Plan {
                 if let Some(octree) = &mut asked.octree {
                     octree.lines = lines;
                 }
+            }
+            Kind::Assumptions(asked) => {
+                asked.number = lines;
+                asked.check_number().map_err(|wrong| wrong.message)?;
             }
         }
         Ok(())
@@ -352,6 +364,10 @@ impl Plan {
                 }
             }
             Kind::HitsVsArea(_) | Kind::CostVsWork(_) => {}
+            Kind::Assumptions(asked) if asked.figure.scene == old => {
+                asked.figure.scene = name.into();
+            }
+            Kind::HitsVsArea(_) | Kind::Assumptions(_) => {}
         }
     }
 }

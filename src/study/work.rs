@@ -23,7 +23,7 @@ pub struct Counted {
 }
 
 /// Rays of one piece of work.
-const PIECE: usize = 1024;
+pub(super) const PIECE: usize = 1024;
 
 /// Trace rays through a tree. The same whatever the number of threads.
 pub fn count(tree: &Tree, objects: &Objects, rays: &Rays) -> Counted {
@@ -37,10 +37,7 @@ pub fn count(tree: &Tree, objects: &Objects, rays: &Rays) -> Counted {
                 let mut own = Work::default();
                 let ask: Ask = rays.of.ask();
                 let hit = ask.hits(tree, objects, &cast.ray(), &mut stack, &mut own);
-                sum.hits += u64::from(hit);
-                sum.work += own;
-                sum.moments
-                    .push([own.inner, own.leaves, own.tests].map(|n| n as f64));
+                sum.push(hit, own);
             }
             sum
         })
@@ -48,14 +45,27 @@ pub fn count(tree: &Tree, objects: &Objects, rays: &Rays) -> Counted {
     pieces
         .into_iter()
         .fold(Counted::default(), |mut sum, piece| {
-            sum.hits += piece.hits;
-            sum.work += piece.work;
-            sum.moments.merge(&piece.moments);
+            sum.merge(&piece);
             sum
         })
 }
 
 impl Counted {
+    /// Add a ray: whether it hit an object, and what it did.
+    pub fn push(&mut self, hit: bool, work: Work) {
+        self.hits += u64::from(hit);
+        self.work += work;
+        self.moments
+            .push([work.inner, work.leaves, work.tests].map(|n| n as f64));
+    }
+
+    /// Add other rays.
+    pub fn merge(&mut self, other: &Self) {
+        self.hits += other.hits;
+        self.work += other.work;
+        self.moments.merge(&other.moments);
+    }
+
     /// The row of a tree and a set of rays.
     pub fn record(
         &self,

@@ -28,7 +28,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 7] = [
+const EXPERIMENTS: [(&str, &str); 8] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -51,6 +51,10 @@ const EXPERIMENTS: [(&str, &str); 7] = [
         include_str!("../../../experiments/split-cost.toml"),
     ),
     ("cost", include_str!("../../../experiments/cost.toml")),
+    (
+        "assumptions",
+        include_str!("../../../experiments/assumptions.toml"),
+    ),
 ];
 
 /// So many of them, the first ones, are the default study.

@@ -5,6 +5,7 @@
 //! rows of `timings.csv`, hold times, so every other file is byte-identical for any number of threads.
 
 mod calibration;
+mod assumptions;
 mod split_cost;
 mod strategies;
 mod trace;
@@ -15,6 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use calibration::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, TimeVerdicts,
 };
+pub use assumptions::{BiasRecord, ExactRecord, GroupRecord, OrderRecord, VisitRecord};
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 

@@ -1,0 +1,228 @@
+//! Counted over predicted for the nodes of one tree, a panel a set of rays.
+
+use std::collections::BTreeMap;
+
+use super::Assumptions;
+use super::names::{Broken, words};
+use crate::report::axis::{Axis, extent};
+use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
+use crate::report::legend::{Key, legend};
+use crate::report::number::{fixed, grouped, significant};
+use crate::report::palette::{INK, MUTED, SKY, faded, viridis};
+use crate::report::panel::{Frame, Panel};
+use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
+use crate::study::records::{Summary, VisitRecord};
+use plotters::style::RGBAColor;
+use plotters::style::text_anchor::{HPos, VPos};
+
+const TITLE: &str = "Where does the metric err? Rays that hit a node, counted over predicted";
+const COLUMNS: usize = 3;
+/// Size of a panel, and how far apart panels begin.
+const SIZE: (f64, f64) = (137.0, 88.0);
+const PITCH: (f64, f64) = (164.0, 135.0);
+const FIRST: (f64, f64) = (38.0, 66.0);
+/// What chance alone does to 95 % of the nodes.
+const BAND: RGBAColor = faded(SKY, 0.32);
+/// Ratios beyond these are drawn at the edge.
+const REACH: (f64, f64) = (1.0 / 50.0, 50.0);
+
+/// The figure of these sets, page i of n.
+pub fn figure(
+    run: &Assumptions,
+    sets: &[&str],
+    (page, pages): (usize, usize),
+    summary: &Summary,
+) -> Figure {
+    let scene = summary.figure_scene.as_deref().unwrap_or_default();
+    let strategy = summary.figure_strategy.as_deref().unwrap_or_default();
+    let caption = format!(
+        "Nodes of one tree ({scene}, strategy {strategy}, stop {}), counted over N p, their hits predicted from surface areas: \
+         1 where the metric is right. N rays hit the root's box ({}). Only nodes with N p ≥ 25; below the edge: beyond it. Colour: \
+         distance of the node's centre from the root's, over half of the root's diagonal. C ×: tree cost counted over predicted; \
+         nodes ×/÷: a standard deviation of the nodes' ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
+         strategies' costs, predicted and counted. Seed {}.{}",
+        summary.stop.as_deref().unwrap_or("unknown"),
+        rays_each(run, sets),
+        summary.seed,
+        if pages > 1 {
+            format!(" Part {page} of {pages}.")
+        } else {
+            String::new()
+        }
+    );
+    let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
+    let keys = [
+        (
+            Key::Scale("root's centre", "root's corner"),
+            "place of a node",
+        ),
+        (Key::Line(INK), "all nodes of about that p together"),
+        (Key::Area(BAND), "95 % of chance"),
+    ];
+    let keys = keys.map(|(key, text)| (key, text.to_owned()));
+    let axes = Axes::of(&run.visits);
+    let lines = sets.len().div_ceil(COLUMNS);
+    let bottom = FIRST.1 + PITCH.1 * (lines - 1) as f64 + SIZE.1;
+    let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
+    Figure::draw(TITLE, WIDTH, height, |pen| {
+        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+        for (i, set) in sets.iter().enumerate() {
+            let left = FIRST.0 + PITCH.0 * (i % COLUMNS) as f64;
+            let top = FIRST.1 + PITCH.1 * (i / COLUMNS) as f64;
+            let frame = Frame {
+                left,
+                top,
+                right: left + SIZE.0,
+                bottom: top + SIZE.1,
+            };
+            let outer = (i % COLUMNS == 0, i + COLUMNS >= sets.len());
+            draw(pen, run, set, frame, &axes, outer, (scene, strategy));
+        }
+    })
+}
+
+/// How many rays of each set there are.
+fn rays_each(run: &Assumptions, sets: &[&str]) -> String {
+    let own = run.visits.iter().filter(|row| sets.contains(&&*row.rays));
+    let range = extent(own.map(|row| row.entered as f64)).unwrap_or_default();
+    let (least, most) = (grouped(range.0 as u64), grouped(range.1 as u64));
+    if least == most {
+        format!("{least} of each set")
+    } else {
+        format!("{least} to {most} of a set")
+    }
+}
+
+/// The ranges that all panels of all pages share.
+struct Axes {
+    p: (f64, f64),
+    ratio: (f64, f64),
+}
+
+impl Axes {
+    fn of(visits: &[VisitRecord]) -> Self {
+        let p = extent(visits.iter().map(|row| row.p)).unwrap_or((0.1, 1.0));
+        let (lo, hi) = extent(visits.iter().map(ratio)).unwrap_or((0.5, 2.0));
+        Axes {
+            p: (p.0, 1.0),
+            ratio: (
+                (lo / 1.1).clamp(REACH.0, 0.5),
+                (1.1 * hi).clamp(2.0, REACH.1),
+            ),
+        }
+    }
+}
+
+/// Counted over predicted; a node that no ray hit counts half a ray.
+fn ratio(row: &VisitRecord) -> f64 {
+    (row.hits as f64).max(0.5) / (row.entered as f64 * row.p)
+}
+
+fn draw(
+    pen: &Pen,
+    run: &Assumptions,
+    set: &str,
+    frame: Frame,
+    axes: &Axes,
+    (leftmost, lowest): (bool, bool),
+    tree: (&str, &str),
+) {
+    let label = |shown: bool, text: &'static str| if shown { text } else { "" };
+    let x = Axis::log(label(lowest, "p = SA(K) / SA(R)"), axes.p.0, axes.p.1, 4);
+    let y = Axis::log(
+        label(leftmost, "counted / predicted"),
+        axes.ratio.0,
+        axes.ratio.1,
+        5,
+    );
+    let mut panel = Panel::new(pen, frame, x, y);
+    let own: Vec<&VisitRecord> = run.visits.iter().filter(|row| row.rays == set).collect();
+    if let Some(n) = own.first().map(|row| row.entered as f64) {
+        let steps = (0..=40).map(|i| panel.x.value(f64::from(i) / 40.0));
+        let chance: Vec<(f64, f64)> = steps
+            .map(|p| (p, 1.96 * ((1.0 - p).max(0.0) / (n * p)).sqrt()))
+            .collect();
+        let end = |sign: f64| -> Vec<(f64, f64)> {
+            let at = |&(p, reach): &(f64, f64)| (p, (1.0 + sign * reach).max(axes.ratio.0));
+            chance.iter().map(at).collect()
+        };
+        panel.band(&end(-1.0), &end(1.0), BAND);
+    }
+    mosaic(
+        pen,
+        own.iter()
+            .filter_map(|row| Some((panel.place((row.p, ratio(row)))?, row.distance))),
+    );
+    panel.line(&[(axes.p.0, 1.0), (axes.p.1, 1.0)], faded(INK, 0.55), 0.5);
+    let together: Vec<(f64, f64)> = run
+        .groups
+        .iter()
+        .filter(|row| (&*row.scene, &*row.strategy) == tree && row.rays == set && row.by == "area")
+        .filter(|row| 10f64.powf(row.lo) >= axes.p.0)
+        .filter_map(|row| Some((10f64.powf(0.5 * (row.lo + row.hi)), row.ratio?)))
+        .filter(|point| point.1 > 0.0)
+        .collect();
+    if together.len() > 1 {
+        panel.line(&together, INK, 1.1);
+    }
+    let edge = frame.left - 2.0;
+    let broken = Broken::of(&run.bias, set).words();
+    panel.heading(&fit(&words(set), MEDIUM + 0.6, SIZE.0 + 4.0), edge, 13.0);
+    pen.text(
+        &broken,
+        (edge, frame.top - 4.0),
+        SMALL,
+        MUTED,
+        (HPos::Left, VPos::Bottom),
+    );
+    panel.note(&summary_of(run, set, tree), false);
+}
+
+/// How much in total, per node, and for the order of the strategies.
+fn summary_of(run: &Assumptions, set: &str, tree: (&str, &str)) -> String {
+    let row = run
+        .bias
+        .iter()
+        .find(|row| (&*row.scene, &*row.strategy) == tree && row.rays == set);
+    let order = run
+        .orders
+        .iter()
+        .find(|row| row.scene == tree.0 && row.rays == set);
+    let parts = [
+        row.and_then(|row| row.c)
+            .map(|c| format!("C × {}", significant(c, 2))),
+        row.and_then(|row| row.spread)
+            .map(|s| format!("nodes ×/÷ {}", fixed(s.exp(), 2))),
+        order
+            .and_then(|row| row.tau)
+            .map(|tau| format!("τ {}", fixed(tau, 1))),
+    ];
+    parts.into_iter().flatten().collect::<Vec<_>>().join(", ")
+}
+
+/// Side of a square of the mosaic, in points, and how far it reaches over its neighbours, so that no seam shows.
+const SIDE: f64 = 1.5;
+const OVERLAP: f64 = 0.25;
+/// Colours told apart: few, so that squares of one colour share a group in the SVG.
+const SHADES: f64 = 24.0;
+
+/// Squares coloured by the mean of what lies on them.
+fn mosaic(pen: &Pen, points: impl Iterator<Item = ((f64, f64), f64)>) {
+    let mut squares: BTreeMap<(i32, i32), (f64, f64)> = BTreeMap::new();
+    for ((x, y), value) in points {
+        let square = ((x / SIDE).floor() as i32, (y / SIDE).floor() as i32);
+        let (sum, n) = squares.entry(square).or_default();
+        (*sum, *n) = (*sum + value, *n + 1.0);
+    }
+    let mut shaded: Vec<(i32, (i32, i32))> = squares
+        .into_iter()
+        .map(|(place, (sum, n))| ((SHADES * sum / n).round() as i32, place))
+        .collect();
+    shaded.sort_unstable();
+    for (shade, (i, j)) in shaded {
+        let (x, y) = (f64::from(i) * SIDE, f64::from(j) * SIDE);
+        let corner = (x + SIDE + OVERLAP, y + SIDE + OVERLAP);
+        pen.rectangle((x, y), corner, viridis(f64::from(shade) / SHADES));
+    }
+}

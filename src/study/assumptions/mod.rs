@@ -1,0 +1,118 @@
+//! The experiment `assumptions`: the metric (MacDonald & Booth 1990) takes rays to be uniform in origin and direction, to come
+//! from outside, and to be stopped by nothing. Each is broken alone and all together: how far does it err then, node by node
+//! and in total, and does it still rank trees?
+
+pub mod asked;
+pub mod cells;
+pub mod exact;
+pub mod nodes;
+pub mod order;
+pub mod verdicts;
+pub mod visits;
+
+use crate::scene::Scene;
+
+use super::records::{ExactRecord, OrderRecord, Summary, WorkRecord};
+use super::store::{Store, StoreError};
+use super::{Plan, RunError, Watcher};
+
+pub use asked::Assumptions;
+use cells::{Found, SceneCell, measure};
+
+/// Measure what is not finished and write the files of the run.
+pub(super) fn run(
+    plan: &Plan,
+    asked: &Assumptions,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    let cells: Vec<SceneCell<'_>> = scenes
+        .iter()
+        .map(|scene| SceneCell::of(plan, asked, scene))
+        .collect();
+    let trees = |cell: &SceneCell<'_>| cell.trees.len() as u64;
+    watcher.expect(cells.iter().map(trees).sum());
+    let found: Vec<Option<Found>> = cells.iter().map(|cell| store.finished(&cell.id)).collect();
+    let already = found.iter().flatten().count();
+    let all = scenes.len();
+    if already > 0 {
+        watcher.note(&format!(
+            "{already} of {all} scenes were finished by an earlier run (--force measures them again)"
+        ));
+    }
+    if already < all {
+        watcher.announce(&format!(
+            "tracing {} sets of rays through the trees of {} scenes",
+            asked.rays.len(),
+            all - already
+        ));
+    }
+    let mut results = Vec::new();
+    for ((scene, cell), found) in scenes.iter().zip(&cells).zip(found) {
+        if let Some(found) = found {
+            watcher.skip(trees(cell));
+            results.push(found);
+            continue;
+        }
+        watcher.begin(&scene.name);
+        let found = measure(asked, scene, cell, watcher).map_err(|fault| RunError::Bug {
+            place: scene.name.clone(),
+            fault,
+        })?;
+        store.save(&cell.id, &found)?;
+        results.push(found);
+    }
+    write(plan, asked, &results, store)?;
+    Ok(())
+}
+
+/// Put the run's files together.
+fn write(
+    plan: &Plan,
+    asked: &Assumptions,
+    found: &[Found],
+    store: &Store,
+) -> Result<(), StoreError> {
+    let work: Vec<&WorkRecord> = found.iter().flat_map(|f| &f.work).collect();
+    let orders: Vec<&OrderRecord> = found.iter().flat_map(|f| &f.orders).collect();
+    let exact: Vec<&ExactRecord> = found.iter().flat_map(|f| &f.exact).collect();
+    store.write_rows("work.csv", &work)?;
+    store.write_rows("bias.csv", found.iter().flat_map(|f| &f.bias))?;
+    store.write_rows("nodes-by.csv", found.iter().flat_map(|f| &f.groups))?;
+    store.write_rows("visits.csv", found.iter().flat_map(|f| &f.visits))?;
+    store.write_rows("order.csv", &orders)?;
+    store.write_rows("exact.csv", &exact)?;
+    let estimates = verdicts::control(asked, &work);
+    store.write_summary(&Summary {
+        stop: Some(asked.stop.to_string()),
+        family_level: Some(1.0 - asked.expect.family),
+        figure_scene: Some(asked.figure.scene.clone()),
+        figure_strategy: Some(asked.figure.strategy.name()),
+        verdicts: verdicts::all(asked, &work, &orders, &exact, &estimates),
+        estimates,
+        ..plan.summary()
+    })
+}
+
+/// The scenes of a dry run, a line each.
+pub(super) fn describe(plan: &Plan, asked: &Assumptions, scenes: &[Scene]) -> String {
+    let mut text = format!("stop {}, seed {}\n", asked.stop, plan.seed);
+    for scene in scenes {
+        let cell = SceneCell::of(plan, asked, scene);
+        text += &format!(
+            "{}  {:24} {:>9} objects, {} trees\n",
+            cell.id,
+            scene.name,
+            scene.bounds.len(),
+            cell.trees.len()
+        );
+    }
+    let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
+    text + &format!(
+        "{} rays each of {}; rays of pictures from {} pixels across\n",
+        asked.number,
+        sets.join(", "),
+        asked.pixels
+    )
+}
