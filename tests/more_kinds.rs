@@ -1,4 +1,4 @@
-//! The kinds `termination` and `split-cost`, and slices, as a user meets them: files, resumption, wrong input.
+//! The kinds `termination`, `split-cost` and `assumptions`, and slices, as a user meets them: files, resumption, wrong input.
 #![allow(clippy::unwrap_used, missing_docs)]
 
 mod runs;
@@ -9,7 +9,10 @@ use std::path::Path;
 use predicates::prelude::*;
 use predicates::str::contains;
 use runs::{contents, folder, validate};
-use sahlab::study::records::{CurveNodeRecord, MedianRecord, OctreeRecord, SliceRecord};
+use sahlab::study::records::{
+    BiasRecord, CurveNodeRecord, ExactRecord, GroupRecord, MedianRecord, OctreeRecord, OrderRecord,
+    SliceRecord, Summary, VisitRecord, WorkRecord,
+};
 use serde::de::DeserializeOwned;
 
 const TERMINATION: &str = r#"kind = "termination"
@@ -37,6 +40,20 @@ curves = [{ scene = "spd:tree:5", rank = 1 }, { scene = "simple:soup:300", rank 
 octree = { limit = 3, levels = 3, lines = 500 }
 cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
 expect = { equal_within = 1e-12 }
+"#;
+
+const ASSUMPTIONS: &str = r#"kind = "assumptions"
+question = "What is the metric worth where its assumptions fail?"
+seed = 5
+scenes = ["spd:balls:2", "simple:clustered:200"]
+strategies = ["spatial-median", "sah"]
+stop = "objects:2:10"
+rays = ["lines", "beam", "volume-ray", "volume-segment", "lines:nearest", "volume-segment:any", "primary", "shadow"]
+number = 2048
+pixels = 12
+figure = { scene = "spd:balls:2", strategy = "sah" }
+cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
+expect = { family = 1e-4, tau = 0.0, regret = 1.0 }
 "#;
 
 fn rows<T: DeserializeOwned>(folder: &Path, name: &str) -> Vec<T> {
@@ -126,6 +143,81 @@ fn split_cost_finds_minima_and_medians() {
 }
 
 #[test]
+fn assumptions_are_broken_one_by_one() {
+    let folder = folder(ASSUMPTIONS);
+    let files = runs_alike(folder.path(), "2 of 2 scenes were finished");
+    for file in [
+        "data/e/nodes-by.csv",
+        "data/e/tables/totals.md",
+        "data/e/tables/bias.tex",
+        "data/e/tables/order.csv",
+        "data/e/tables/exact.md",
+        "plots/e/assumptions.svg",
+        "plots/e/assumptions-totals.png",
+        "plots/e/assumptions-order.svg",
+    ] {
+        assert!(files.contains_key(file), "{file}");
+    }
+    // Eight sets of one scene, six of the one without a picture; two trees each.
+    let work: Vec<WorkRecord> = rows(folder.path(), "work.csv");
+    let bias: Vec<BiasRecord> = rows(folder.path(), "bias.csv");
+    assert_eq!((work.len(), bias.len()), (28, 28));
+    for (row, work) in bias.iter().zip(&work) {
+        assert_eq!(
+            row.uniform,
+            ["lines", "volume-ray", "lines:nearest"].contains(&&*row.rays)
+        );
+        assert_eq!(
+            row.inside == 1.0,
+            row.rays.starts_with("volume"),
+            "{}",
+            row.rays
+        );
+        assert_eq!(row.stopped > 0.0, work.ask != "all", "{}", row.rays);
+        let visits = (work.inner_visits + work.leaf_visits) as f64 / row.entered as f64;
+        let predicted = work.n_k_predicted + work.n_b_predicted;
+        assert!((row.visits.unwrap() / (visits / predicted) - 1.0).abs() < 1e-12);
+        if row.rays == "lines" {
+            assert!((row.c.unwrap() - 1.0).abs() < 0.1 && row.spread.unwrap() < 0.1);
+        }
+    }
+    // Every group of nodes adds up to all visits.
+    let groups: Vec<GroupRecord> = rows(folder.path(), "nodes-by.csv");
+    for by in ["depth", "area", "distance"] {
+        for row in &work {
+            let own = groups.iter().filter(|g| {
+                (&*g.by, &g.scene, &g.strategy, &g.rays)
+                    == (by, &row.scene, &row.strategy, &row.rays)
+            });
+            let hits: u64 = own.map(|g| g.hits).sum();
+            assert_eq!(hits, row.inner_visits + row.leaf_visits);
+        }
+    }
+    let visits: Vec<VisitRecord> = rows(folder.path(), "visits.csv");
+    assert!(visits.len() > 20);
+    assert!(
+        visits
+            .iter()
+            .all(|v| v.entered as f64 * v.p >= 25.0 && v.node > 0)
+    );
+    let orders: Vec<OrderRecord> = rows(folder.path(), "order.csv");
+    assert_eq!(orders.len(), 14);
+    assert!(
+        orders
+            .iter()
+            .all(|row| row.right + row.wrong + row.tied == 1)
+    );
+    // Trees by lines for two sets, and by slabs for segments.
+    let exact: Vec<ExactRecord> = rows(folder.path(), "exact.csv");
+    assert_eq!(exact.len(), 12);
+    let summary = std::fs::read(folder.path().join("data/e/summary.json")).unwrap();
+    let summary: Summary = serde_json::from_slice(&summary).unwrap();
+    let names: Vec<&str> = summary.verdicts.iter().map(|v| &*v.name).collect();
+    assert_eq!(names, ["control", "exact", "stops-less", "order", "regret"]);
+    assert_eq!(summary.estimates.len(), 12);
+}
+
+#[test]
 fn ranks_beyond_the_tree_are_told() {
     let folder = folder(&SPLIT_COST.replace("rank = 2", "rank = 100000"));
     let told = contains("simple:soup:300 has only").and(contains("rank 100000 is not drawn"));
@@ -157,6 +249,34 @@ fn wrong_experiments_are_refused() {
             "\"simple:soup:9\"",
             "simple:soup:9",
             "no camera",
+        ),
+        (
+            ASSUMPTIONS,
+            "\"beam\"",
+            "\"bean\"",
+            "e.toml:7",
+            "'bean' is no source of rays",
+        ),
+        (
+            ASSUMPTIONS,
+            "number = 2048",
+            "number = 1",
+            "e.toml:8",
+            "2 to 4194304",
+        ),
+        (
+            ASSUMPTIONS,
+            "strategy = \"sah\"",
+            "strategy = \"sah-cyclic\"",
+            "e.toml:10",
+            "not among the scenes and strategies",
+        ),
+        (
+            ASSUMPTIONS,
+            "tau = 0.0",
+            "tau = 2.0",
+            "e.toml:12",
+            "-1 to 1",
         ),
         (SPLIT_COST, "rank = 1", "rank = 0", "e.toml:7", "has rank 1"),
         (

@@ -10,17 +10,17 @@ pub fn words(set: &str) -> String {
         "disc" => "uniform lines, by discs",
         "sphere-points" => "uniform lines, by sphere points",
         "beam" => "parallel beam",
-        "eye" => "from one point outside",
+        "eye" => "from a point outside",
         "uniform-hemisphere" => "box surface, uniform directions",
         "sphere-hemisphere" => "sphere, uniform directions",
         "box-chord" => "through two points of faces",
         "sphere-to-volume" => "from a sphere to points inside",
-        "volume-line" => "lines through points inside",
+        "volume-line" => "lines through a point inside",
         "volume-chord" => "lines through two points inside",
         "axes-only" => "along the axes only",
-        "volume-ray" => "rays from points inside",
-        "volume-segment" => "segments between points inside",
-        "objects" => "from the objects' surfaces",
+        "volume-ray" => "rays from inside",
+        "volume-segment" => "segments inside",
+        "objects" => "from the objects",
         "primary" => "picture: eye rays",
         "shadow" => "picture: shadow rays",
         "secondary" => "picture: secondary rays",
@@ -28,7 +28,7 @@ pub fn words(set: &str) -> String {
     };
     match ask {
         "" => source.to_owned(),
-        ask => format!("{source}: {ask} hit"),
+        ask => format!("{source}, {ask} hit"),
     }
 }
 
@@ -83,8 +83,8 @@ mod tests {
 
     #[test]
     fn sets_are_told_in_words() {
-        assert_eq!(words("lines:nearest"), "uniform lines: nearest hit");
+        assert_eq!(words("lines:nearest"), "uniform lines, nearest hit");
         assert_eq!(words("shadow"), "picture: shadow rays");
-        assert_eq!(words("stretched:any"), "stretched: any hit");
+        assert_eq!(words("stretched:any"), "stretched, any hit");
     }
 }

@@ -37,7 +37,7 @@ pub fn figure(
     let strategy = summary.figure_strategy.as_deref().unwrap_or_default();
     let caption = format!(
         "Nodes of one tree ({scene}, strategy {strategy}, stop {}), counted over N p, their hits predicted from surface areas: \
-         1 where the metric is right. N rays hit the root's box ({}). Only nodes with N p ≥ 25; below the edge: beyond it. Colour: \
+         1 where the metric is right. N rays hit the root's box ({}). Only nodes with N p ≥ 25; on the lower edge: that or less. Colour: \
          distance of the node's centre from the root's, over half of the root's diagonal. C ×: tree cost counted over predicted; \
          nodes ×/÷: a standard deviation of the nodes' ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
          strategies' costs, predicted and counted. Seed {}.{}",
@@ -108,7 +108,7 @@ impl Axes {
             p: (p.0, 1.0),
             ratio: (
                 (lo / 1.1).clamp(REACH.0, 0.5),
-                (1.1 * hi).clamp(2.0, REACH.1),
+                (2.5 * hi).clamp(4.0, REACH.1),
             ),
         }
     }

@@ -16,7 +16,7 @@ use plotters::style::RGBAColor;
 const TITLE: &str =
     "Does the metric still find the cheapest tree, for rays that break its assumptions?";
 /// Room for the scenes' names above the matrix, which read upwards.
-const NAMES: f64 = 74.0;
+const NAMES: f64 = 90.0;
 /// Widest column.
 const WIDEST: f64 = 30.0;
 /// A pair of trees the wrong way round.
@@ -34,7 +34,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
         "Numbers: by how many per cent the tree that the metric takes for the cheapest is dearer, counted, than the cheapest, of \
          strategies {}, stop {}; 0: the metric's choice is best. Colour: Kendall's τ of their costs predicted and counted, 1: the \
          same order. Red dot: at least one pair of trees is ranked wrongly although the rays tell them apart (99 % interval of the \
-         difference of their costs over the same rays). Empty: the scene has no such rays. Red dots at the names: assumptions \
+         difference of their costs over the same rays). Empty: the scene has no such rays. Blue dots: assumptions \
          that the rays break. Seed {}.",
         strategies.join(", "),
         summary.stop.as_deref().unwrap_or("unknown"),
@@ -42,7 +42,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
     let keys = [
-        (Key::Scale("−1", "1"), "τ of the order".to_owned()),
+        (Key::Scale("≤ 0", "1"), "τ of the order".to_owned()),
         (Key::Mark(WRONG), "a pair ranked wrongly".to_owned()),
     ];
     let top = 38.0 + NAMES.max(HEADINGS);
@@ -67,7 +67,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
                 };
                 let y = rows.middle(r);
                 let half = 0.5 * ROW - 0.4;
-                let share = row.tau.map(|tau| 0.5 * (tau + 1.0));
+                let share = row.tau.map(|tau| tau.max(0.0));
                 let (fill, ink) = match share {
                     Some(share) if share > 0.55 => (viridis(share), INK),
                     Some(share) => (viridis(share), PAPER),

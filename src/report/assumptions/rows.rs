@@ -5,7 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use super::Assumptions;
 use super::names::{BROKEN, Broken, words};
 use crate::report::figure::{LEFT, Pen};
-use crate::report::palette::{GRID, INK, MUTED, VERMILLION};
+use crate::report::palette::{BLUE, GRID, INK, MUTED};
 use crate::report::text::{MEDIUM, SMALL, fit, text_width};
 
 /// Height of a row.
@@ -13,7 +13,7 @@ pub const ROW: f64 = 11.6;
 /// Width of a column of dots.
 const COLUMN: f64 = 11.0;
 /// Room of the columns' headings, which read upwards.
-pub const HEADINGS: f64 = 46.0;
+pub const HEADINGS: f64 = 50.0;
 /// Longer names are shortened.
 const WIDEST: f64 = 132.0;
 
@@ -69,7 +69,7 @@ impl<'r> Rows<'r> {
             for (c, is) in broken.marks().into_iter().enumerate() {
                 let at = (first + COLUMN * c as f64, y);
                 if is {
-                    pen.disc(at, 2.4, VERMILLION);
+                    pen.disc(at, 2.4, BLUE);
                 } else {
                     pen.disc(at, 0.8, GRID);
                 }

@@ -7,7 +7,7 @@ use super::rows::{HEADINGS, ROW, Rows};
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
-use crate::report::number::{fixed, significant};
+use crate::report::number::fixed;
 use crate::report::palette::{INK, Look, MUTED, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
@@ -29,10 +29,11 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let own: Vec<&BiasRecord> = run.bias.iter().filter(|r| r.strategy == strategy).collect();
     let scenes = distinct(own.iter().map(|row| row.scene.as_str()));
     let caption = format!(
-        "Trees of strategy {strategy}, stop {}; red dots: assumptions that the rays break. (a) Tree cost C counted over predicted, \
+        "Trees of strategy {strategy}, stop {}; blue dots: assumptions that the rays break. (a) Tree cost C counted over predicted, \
          per ray that hits the root's box; 1 where the metric is right. (b) Scatter of the single nodes about their common \
          factor: a standard deviation of their counted over predicted hits, nodes weighted by predicted hits, sampling noise \
-         taken out. Bars and numbers: geometric means over the scenes. Seed {}.",
+         taken out; a node that no ray hit counts half a ray. Bars and numbers: geometric means over the scenes. The beam's \
+         direction and the point outside are drawn once a scene. Seed {}.",
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );
@@ -64,7 +65,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
         let first = Part {
             heading: "(a) total",
             label: "C counted / predicted",
-            show: |value| significant(value, 2),
+            show: |value| fixed(value, 2),
             value: |row| row.c,
         };
         first.draw(pen, &rows, &own, &scenes, frame(rows.right, between));

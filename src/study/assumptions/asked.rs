@@ -127,11 +127,13 @@ impl Assumptions {
     }
 }
 
-/// Whether the lines of these rays are uniform in origin and direction: what the metric assumes first. Where they begin and
-/// end is another matter.
+/// Whether these rays are uniform in origin and direction: what the metric assumes first. Rays in isotropic directions from
+/// uniform points are, as far as they begin inside, which breaks another assumption.
 pub fn is_uniform(rays: RaysOf) -> bool {
     match rays {
-        RaysOf::Source(Source::Law(law), _) => LineLaw::EXACT.contains(&law),
+        RaysOf::Source(Source::Law(law), _) => {
+            LineLaw::EXACT.contains(&law) || law == LineLaw::VolumeRay
+        }
         RaysOf::Source(Source::Beam | Source::Eye | Source::Objects, _)
         | RaysOf::Traced(_)
         | RaysOf::Own(_) => false,
@@ -140,5 +142,6 @@ pub fn is_uniform(rays: RaysOf) -> bool {
 
 /// Whether these rays keep all assumptions of the metric: the control.
 pub fn is_control(rays: RaysOf) -> bool {
-    is_uniform(rays) && rays.ask() == Ask::All
+    let exact = |law| LineLaw::EXACT.contains(&law);
+    matches!(rays, RaysOf::Source(Source::Law(law), Ask::All) if exact(law))
 }

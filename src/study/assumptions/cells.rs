@@ -67,7 +67,7 @@ impl<'a> SceneCell<'a> {
 }
 
 /// Isotropic lines behind an exact expectation, for each counted ray.
-const LINES_A_RAY: u64 = 4;
+const LINES_A_RAY: u64 = 16;
 /// Nodes of a tree, the largest ones below the root, that are held against exact expectations.
 const EXACT_NODES: usize = 200;
 
@@ -220,8 +220,8 @@ impl One<'_> {
         let mut rows = vec![self.worst("lines", by_lines)];
         if inside == Inside::Segment {
             let slab = |i: &usize| {
-                let mean = exact::slab(root, &self.tree.boxes[*i])?;
-                Some((*i, Share { mean, se: 0.0 }))
+                let share = exact::slab(root, &self.tree.boxes[*i])?;
+                Some((*i, Share::known(share)))
             };
             rows.push(self.worst("slab", nodes.iter().filter_map(slab).collect()));
         }
@@ -267,5 +267,69 @@ pub fn source_of(set: &str) -> Option<(Source, Ask)> {
     match set.parse() {
         Ok(RaysOf::Source(source, ask)) => Some((source, ask)),
         _ => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cost::CostModel;
+    use crate::kd::{Rules, StopRule, Strategy};
+    use crate::study::ray_sets::Number;
+
+    /// The least p-value of the exact checks, for rays of one kind under the name of another.
+    fn exact_p(of: &str, named: &str) -> f64 {
+        let scene = Scene::load("spd:balls:2").expect("a scene");
+        let rules = Rules {
+            strategy: Strategy::Sah,
+            stop: StopRule::Objects {
+                limit: 2,
+                depth: Some(10),
+            },
+            cost: CostModel::WALD_HAVRAN,
+            clipped: false,
+        };
+        let lines = LineRule::exactly(1 << 16).expect("enough lines");
+        let plan = &CellPlan::of_scene(&scene, &[rules], 4, lines)[0];
+        let number = Number {
+            rays: 1 << 13,
+            pixels: 1,
+        };
+        let set = of.parse().expect("a set");
+        let mut rays = gather(&scene, &[set], number, plan.line_seed).expect("rays");
+        let (tree, _) = plant(&scene, &rules).expect("a tree");
+        let prediction = predict(&tree);
+        let places = Places::of(&tree, &prediction);
+        let visits = count(&tree, &scene.objects, &rays[0], rules.cost).expect("counts");
+        rays[0].of = named.parse().expect("a set");
+        let one = One {
+            plan,
+            tree: &tree,
+            prediction: &prediction,
+            rays: &rays[0],
+            errors: Errors {
+                places: &places,
+                visits: &visits,
+                complete: false,
+            },
+        };
+        let rows = one.exact();
+        let nodes: u64 = rows.iter().map(|row| row.nodes).sum();
+        assert!(nodes > 20, "{nodes}");
+        let least = rows.iter().map(|row| row.p_value).fold(1.0, f64::min);
+        nodes as f64 * least
+    }
+
+    #[test]
+    fn rays_of_another_law_fail_the_exact_check() {
+        for [own, other] in [
+            ["volume-ray", "volume-segment"],
+            ["volume-segment", "volume-ray"],
+        ] {
+            assert!(exact_p(own, own) > 1e-3, "{own}");
+            assert!(exact_p(other, own) < 1e-12, "{other} as {own}");
+        }
+        assert!(exact_p("volume-line", "volume-ray") < 1e-12);
+        assert!(exact_p("volume-ray:nearest", "volume-ray") < 1e-12);
     }
 }

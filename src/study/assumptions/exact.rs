@@ -63,6 +63,20 @@ pub struct Share {
     pub mean: f64,
     /// Its standard error.
     pub se: f64,
+    /// Bound of the skewness of the mean's error: E|w - mean|^3 is at most the heaviest weight times the variance, so it is
+    /// at most (heaviest weight)/(n se). In a flat root a few long chords weigh more than all others.
+    pub skewness: f64,
+}
+
+impl Share {
+    /// A share known exactly.
+    pub fn known(mean: f64) -> Self {
+        Self {
+            mean,
+            se: 0.0,
+            skewness: 0.0,
+        }
+    }
 }
 
 /// Lines that one thread takes at a time; sums are added in the order of the lines.
@@ -96,11 +110,15 @@ pub fn expected(root: &Aabb, boxes: &[Aabb], inside: Inside, seed: u64, lines: u
         sums[sum] = [sums[sum][0] + part[0], sums[sum][1] + part[1]];
     }
     let n = lines as f64;
+    let diagonal = root.extent().length();
+    let heaviest = inside.weight(diagonal, [0.0, diagonal], root);
     let share = |[sum, squares]: [f64; 2]| {
         let mean = sum / n;
+        let se = ((squares / n - mean * mean).max(0.0) / (n - 1.0)).sqrt();
         Share {
             mean,
-            se: ((squares / n - mean * mean).max(0.0) / (n - 1.0)).sqrt(),
+            se,
+            skewness: heaviest / (n * se),
         }
     };
     sums.into_iter().map(share).collect()
@@ -118,10 +136,12 @@ pub fn slab(root: &Aabb, node: &Aabb) -> Option<f64> {
     Some(1.0 - below * below - above * above)
 }
 
-/// Hits, and misses, that a normal tail is good for even far out.
+/// Hits, misses and skewness of the expectation that a normal tail is good for even far out.
 const LEAST_EXPECTED: f64 = 200.0;
+const MOST_SKEWNESS: f64 = 0.1;
 
-/// The p-value of so many hits of `cast` rays; `None` where too few hits or misses are expected to tell.
+/// The p-value of so many hits of `cast` rays; `None` where too few hits or misses are expected to tell, or too few lines
+/// make up the expectation.
 pub fn p_value(share: Share, hits: u64, cast: u64) -> Option<f64> {
     let n = cast as f64;
     if share.se == 0.0 {
@@ -129,7 +149,8 @@ pub fn p_value(share: Share, hits: u64, cast: u64) -> Option<f64> {
         return open.then(|| binomial_tail(hits, cast, share.mean));
     }
     let variance = share.mean * (1.0 - share.mean) / n;
-    let enough = n * share.mean.min(1.0 - share.mean) >= LEAST_EXPECTED;
+    let enough =
+        n * share.mean.min(1.0 - share.mean) >= LEAST_EXPECTED && share.skewness <= MOST_SKEWNESS;
     enough
         .then(|| normal_p((hits as f64 / n - share.mean) / (variance + share.se * share.se).sqrt()))
 }
@@ -176,7 +197,7 @@ mod tests {
             (Inside::Ray, [0.87, 1.07, 0.42, 0.71, 0.97]),
             (Inside::Segment, [1.25, 2.39, 0.20, 0.65, 3.48]),
         ] {
-            let shares = expected(&ROOT, &cubes(), inside, 3, 1 << 19);
+            let shares = expected(&ROOT, &cubes(), inside, 3, 1 << 21);
             for ((share, known), node) in shares.iter().zip(known).zip(cubes()) {
                 let p = node.surface_area() / 6.0;
                 let apart = (share.mean / p - known).abs();
@@ -209,7 +230,7 @@ mod tests {
             }
             sum
         };
-        let steps = 64;
+        let steps = 64_u32;
         let at = |i: u32| (f64::from(i) + 0.5) / f64::from(steps);
         let mut sum = 0.0;
         for (x, y, z) in
