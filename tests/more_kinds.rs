@@ -10,8 +10,8 @@ use predicates::prelude::*;
 use predicates::str::contains;
 use runs::{contents, folder, validate};
 use sahlab::study::records::{
-    BiasRecord, CurveNodeRecord, ExactRecord, GroupRecord, MedianRecord, OctreeRecord, OrderRecord,
-    SliceRecord, Summary, VisitRecord, WorkRecord,
+    BiasRecord, CurveNodeRecord, ExactRecord, GroupRecord, MedianRecord, MetricRecord,
+    OctreeRecord, OrderRecord, SliceRecord, Summary, VisitRecord, WorkRecord,
 };
 use serde::de::DeserializeOwned;
 
@@ -152,6 +152,8 @@ fn assumptions_are_broken_one_by_one() {
         "data/e/tables/bias.tex",
         "data/e/tables/order.csv",
         "data/e/tables/exact.md",
+        "data/e/tables/metrics.md",
+        "plots/e/assumptions-metrics.png",
         "plots/e/assumptions.svg",
         "plots/e/assumptions-totals.png",
         "plots/e/assumptions-order.svg",
@@ -201,12 +203,22 @@ fn assumptions_are_broken_one_by_one() {
             .all(|v| v.entered as f64 * v.p >= 25.0 && v.node > 0)
     );
     let orders: Vec<OrderRecord> = rows(folder.path(), "order.csv");
-    assert_eq!(orders.len(), 14);
+    assert_eq!(orders.len(), 14 * 5);
     assert!(
         orders
             .iter()
             .all(|row| row.right + row.wrong + row.tied == 1)
     );
+    let metrics: Vec<MetricRecord> = rows(folder.path(), "metrics.csv");
+    assert_eq!(metrics.len(), 28 * 5);
+    assert_eq!(metrics.iter().filter(|row| row.suited).count(), 28);
+    for row in &metrics {
+        let own = |b: &&BiasRecord| {
+            (&b.scene, &b.strategy, &b.rays) == (&row.scene, &row.strategy, &row.rays)
+        };
+        let area = bias.iter().find(own).unwrap().c.unwrap();
+        assert!(row.metric != "area" || (row.ratio.unwrap() / area - 1.0).abs() < 1e-12);
+    }
     // Trees by lines for two sets, and by slabs for segments.
     let exact: Vec<ExactRecord> = rows(folder.path(), "exact.csv");
     assert_eq!(exact.len(), 12);

@@ -1,5 +1,6 @@
 //! What a run of kind `assumptions` left behind, and what is made of it.
 
+mod metrics;
 mod names;
 mod nodes;
 mod order;
@@ -14,7 +15,8 @@ use super::series::distinct;
 use super::table::Table;
 use super::{Figure, ReportError};
 use crate::study::records::{
-    BiasRecord, ExactRecord, GroupRecord, OrderRecord, Summary, VisitRecord, WorkRecord,
+    BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, Summary, VisitRecord,
+    WorkRecord,
 };
 
 /// The files of a run of kind `assumptions`.
@@ -28,8 +30,12 @@ pub struct Assumptions {
     pub groups: Vec<GroupRecord>,
     /// `visits.csv`.
     pub visits: Vec<VisitRecord>,
-    /// `order.csv`.
+    /// `order.csv`: the rows of the surface area metric.
     pub orders: Vec<OrderRecord>,
+    /// Those of the other metrics.
+    pub others: Vec<OrderRecord>,
+    /// `metrics.csv`.
+    pub metrics: Vec<MetricRecord>,
     /// `exact.csv`.
     pub exact: Vec<ExactRecord>,
 }
@@ -41,12 +47,17 @@ impl Assumptions {
     /// Reads the files of a directory.
     pub(super) fn read(dir: &Path) -> Result<Self, ReportError> {
         let some = |name: &str| dir.join(name);
+        let (orders, others) = rows_of(&some("order.csv"))?
+            .into_iter()
+            .partition(|row: &OrderRecord| row.metric == metrics::AREA);
         Ok(Self {
             work: rows_of(&some("work.csv"))?,
             bias: rows_of(&some("bias.csv"))?,
             groups: rows_of(&some("nodes-by.csv"))?,
             visits: optional_rows(&some("visits.csv"))?.unwrap_or_default(),
-            orders: rows_of(&some("order.csv"))?,
+            orders,
+            others,
+            metrics: rows_of(&some("metrics.csv"))?,
             exact: optional_rows(&some("exact.csv"))?.unwrap_or_default(),
         })
     }
@@ -57,7 +68,7 @@ impl Assumptions {
     }
 
     /// `assumptions`, `assumptions-2`, ... for the nodes of one tree, a panel a set of rays; `assumptions-totals`;
-    /// `assumptions-order`.
+    /// `assumptions-order`; `assumptions-metrics`.
     pub(super) fn figures(&self, summary: &Summary) -> Vec<(String, Figure)> {
         let drawn = distinct(self.visits.iter().map(|row| row.rays.as_str()));
         let pages = drawn.chunks(PANELS).enumerate();
@@ -75,6 +86,10 @@ impl Assumptions {
             totals::figure(self, summary),
         ));
         figures.push(("assumptions-order".to_owned(), order::figure(self, summary)));
+        figures.push((
+            "assumptions-metrics".to_owned(),
+            metrics::figure(self, summary),
+        ));
         figures
     }
 
@@ -83,6 +98,7 @@ impl Assumptions {
             ("totals", tables::totals(self)),
             ("bias", tables::bias(self)),
             ("order", tables::order(self)),
+            ("metrics", metrics::table(self)),
             ("verdicts", super::tables::verdicts(summary)),
         ];
         if !self.exact.is_empty() {

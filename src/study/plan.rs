@@ -363,11 +363,10 @@ impl Plan {
                     slice.scene = name.into();
                 }
             }
-            Kind::HitsVsArea(_) | Kind::CostVsWork(_) => {}
             Kind::Assumptions(asked) if asked.figure.scene == old => {
                 asked.figure.scene = name.into();
             }
-            Kind::HitsVsArea(_) | Kind::Assumptions(_) => {}
+            Kind::HitsVsArea(_) | Kind::Assumptions(_) | Kind::CostVsWork(_) => {}
         }
     }
 }

@@ -12,11 +12,13 @@ pub fn geometric(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| (logarithms / values.len() as f64).exp())
 }
 
-fn arithmetic(values: &[f64]) -> Option<f64> {
+/// Mean; `None` of nothing.
+pub fn arithmetic(values: &[f64]) -> Option<f64> {
     (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
 }
 
-fn value(value: Option<f64>, decimals: usize) -> Cell {
+/// A number to so many decimals, if it is known.
+pub fn value(value: Option<f64>, decimals: usize) -> Cell {
     value.map_or(Cell::Missing, |value| Cell::Value(value, decimals))
 }
 

@@ -10,12 +10,13 @@ use crate::study::hits::cell::{CellPlan, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::ray_sets::{Rays, RaysOf, gather};
 use crate::study::records::{
-    BiasRecord, ExactRecord, GroupRecord, OrderRecord, VisitRecord, WorkRecord,
+    BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord, WorkRecord,
 };
 use crate::study::{LineRule, Plan, Watcher};
 
 use super::asked::{Assumptions, is_uniform};
 use super::exact::{self, Inside, Share};
+use super::metrics::{self, METRICS};
 use super::nodes::{Errors, Places};
 use super::order::{Ranked, order};
 use super::visits::{Visits, count};
@@ -33,6 +34,8 @@ pub struct Found {
     pub visits: Vec<VisitRecord>,
     /// Rows of `order.csv`.
     pub orders: Vec<OrderRecord>,
+    /// Rows of `metrics.csv`.
+    pub metrics: Vec<MetricRecord>,
     /// Rows of `exact.csv`.
     pub exact: Vec<ExactRecord>,
 }
@@ -89,14 +92,16 @@ pub fn measure(
         groups: Vec::new(),
         visits: Vec::new(),
         orders: Vec::new(),
+        metrics: Vec::new(),
         exact: Vec::new(),
     };
-    // By tree and set.
-    let mut predicted = Vec::new();
+    // By tree; costs by set, too.
+    let mut expectations = Vec::new();
     let mut costs: Vec<Vec<Vec<f64>>> = Vec::new();
     for plan in &cell.trees {
         let (tree, _) = plant(scene, &plan.rules)?;
         let prediction = predict(&tree);
+        let expected = metrics::expected(scene, &tree);
         let places = Places::of(&tree, &prediction);
         let mut own = Vec::new();
         for rays in &sets {
@@ -113,27 +118,31 @@ pub fn measure(
                 },
             };
             one.look(asked, &mut found);
+            let rows = metrics::records(plan, rays, &visits, &expected);
+            found.metrics.extend(rows);
             own.push(visits.costs);
         }
-        let cost = plan.rules.cost;
-        predicted.push(cost.cost(prediction.n_k, prediction.n_b, prediction.n_t));
+        expectations.push(expected);
         costs.push(own);
         watcher.done(1);
     }
     for (s, rays) in sets.iter().enumerate() {
-        let trees: Vec<Ranked<'_>> = cell
-            .trees
-            .iter()
-            .zip(&predicted)
-            .zip(&costs)
-            .map(|((plan, &predicted), costs)| Ranked {
-                strategy: plan.rules.strategy.name(),
-                predicted,
-                costs: &costs[s],
-            })
-            .collect();
-        let row = order(&scene.name, &rays.of.to_string(), rays.complete, &trees);
-        found.orders.extend(row);
+        for (m, metric) in METRICS.iter().enumerate() {
+            let trees: Vec<Ranked<'_>> = cell
+                .trees
+                .iter()
+                .zip(&expectations)
+                .zip(&costs)
+                .map(|((plan, expected), costs)| Ranked {
+                    strategy: plan.rules.strategy.name(),
+                    predicted: metrics::cost(plan.rules.cost, expected[m]),
+                    costs: &costs[s],
+                })
+                .collect();
+            let (scene, set) = (&*scene.name, rays.of.to_string());
+            let row = order(scene, &set, metric.name(), rays.complete, &trees);
+            found.orders.extend(row);
+        }
     }
     Ok(found)
 }

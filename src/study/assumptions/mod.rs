@@ -5,11 +5,13 @@
 pub mod asked;
 pub mod cells;
 pub mod exact;
+pub mod metrics;
 pub mod nodes;
 pub mod order;
 pub mod verdicts;
 pub mod visits;
 
+use crate::kd::expect::Metric;
 use crate::scene::Scene;
 
 use super::records::{ExactRecord, OrderRecord, Summary, WorkRecord};
@@ -76,12 +78,15 @@ fn write(
 ) -> Result<(), StoreError> {
     let work: Vec<&WorkRecord> = found.iter().flat_map(|f| &f.work).collect();
     let orders: Vec<&OrderRecord> = found.iter().flat_map(|f| &f.orders).collect();
+    let of_areas = |row: &&&OrderRecord| row.metric == Metric::Area.name();
+    let by_area: Vec<&OrderRecord> = orders.iter().filter(of_areas).copied().collect();
     let exact: Vec<&ExactRecord> = found.iter().flat_map(|f| &f.exact).collect();
     store.write_rows("work.csv", &work)?;
     store.write_rows("bias.csv", found.iter().flat_map(|f| &f.bias))?;
     store.write_rows("nodes-by.csv", found.iter().flat_map(|f| &f.groups))?;
     store.write_rows("visits.csv", found.iter().flat_map(|f| &f.visits))?;
     store.write_rows("order.csv", &orders)?;
+    store.write_rows("metrics.csv", found.iter().flat_map(|f| &f.metrics))?;
     store.write_rows("exact.csv", &exact)?;
     let estimates = verdicts::control(asked, &work);
     store.write_summary(&Summary {
@@ -89,7 +94,7 @@ fn write(
         family_level: Some(1.0 - asked.expect.family),
         figure_scene: Some(asked.figure.scene.clone()),
         figure_strategy: Some(asked.figure.strategy.name()),
-        verdicts: verdicts::all(asked, &work, &orders, &exact, &estimates),
+        verdicts: verdicts::all(asked, &work, &by_area, &exact, &estimates),
         estimates,
         ..plan.summary()
     })

@@ -42,8 +42,14 @@ impl Ranked<'_> {
     }
 }
 
-/// The row of a scene and a set of rays; `None` without trees.
-pub fn order(scene: &str, rays: &str, complete: bool, trees: &[Ranked<'_>]) -> Option<OrderRecord> {
+/// The row of a scene, a set of rays and the metric that ranks its trees; `None` without trees.
+pub fn order(
+    scene: &str,
+    rays: &str,
+    metric: &str,
+    complete: bool,
+    trees: &[Ranked<'_>],
+) -> Option<OrderRecord> {
     let predicted: Vec<f64> = trees.iter().map(|t| t.predicted).collect();
     let counted: Vec<f64> = trees.iter().map(Ranked::counted).collect();
     let [mut right, mut wrong, mut tied] = [0, 0, 0];
@@ -66,6 +72,7 @@ pub fn order(scene: &str, rays: &str, complete: bool, trees: &[Ranked<'_>]) -> O
     Some(OrderRecord {
         scene: scene.into(),
         rays: rays.into(),
+        metric: metric.into(),
         trees: trees.len() as u64,
         tau: kendall_tau_b(&predicted, &counted),
         right,
@@ -99,14 +106,14 @@ mod tests {
             tree("b", 4.0, &b[..]),
             tree("c", 9.0, &c[..]),
         ];
-        let row = order("s", "r", false, &trees).expect("trees");
+        let row = order("s", "r", "m", false, &trees).expect("trees");
         assert_eq!((row.right, row.wrong, row.tied), (0, 1, 2));
         // All rays there are: c is dearer than a by 0.025 and cheaper than b.
-        let row = order("s", "r", true, &trees).expect("trees");
+        let row = order("s", "r", "m", true, &trees).expect("trees");
         assert_eq!((row.right, row.wrong, row.tied), (1, 2, 0));
         assert_eq!((&*row.predicted_best, &*row.counted_best), ("b", "a"));
         assert_eq!(row.regret, Some(5.0 / 3.0 - 1.0));
         assert!((row.tau.expect("three trees") + 1.0 / 3.0).abs() < 1e-15);
-        assert_eq!(order("s", "r", true, &[]), None);
+        assert_eq!(order("s", "r", "m", true, &[]), None);
     }
 }

@@ -94,7 +94,7 @@ pub struct VisitRecord {
     pub entered: u64,
 }
 
-/// The strategies of one scene ranked by the metric and by one set of rays. A row of `order.csv`.
+/// The strategies of one scene ranked by a metric and by one set of rays. A row of `order.csv`.
 ///
 /// Two trees are told apart where the 99 % interval of the difference of their costs, from the same rays, leaves 0 out.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -104,6 +104,8 @@ pub struct OrderRecord {
     pub scene: String,
     /// The set of rays.
     pub rays: String,
+    /// What ranks them: `area` for the surface area metric, or the name of a metric that gives up an assumption.
+    pub metric: String,
     /// Trees compared, one a strategy.
     pub trees: u64,
     /// Kendall's tau-b of C predicted and counted; empty where one of the two is the same for all trees.
@@ -120,6 +122,34 @@ pub struct OrderRecord {
     pub counted_best: String,
     /// C counted of the tree predicted to be cheapest over the least C counted, minus 1: what trusting the metric costs.
     pub regret: Option<f64>,
+}
+
+/// What one metric expects of a ray in one tree, and what a ray of one set cost. A row of `metrics.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct MetricRecord {
+    /// Scene of the tree.
+    pub scene: String,
+    /// Strategy of the tree.
+    pub strategy: String,
+    /// The set of rays.
+    pub rays: String,
+    /// The metric: `area` for the surface area metric, or the name of one that gives up an assumption.
+    pub metric: String,
+    /// Whether of all metrics it is the one whose rays begin and end most like these.
+    pub suited: bool,
+    /// Inner nodes visited: expected.
+    pub n_k: f64,
+    /// Leaves visited: expected.
+    pub n_b: f64,
+    /// Objects tested: expected.
+    pub n_t: f64,
+    /// Tree cost: expected.
+    pub c: f64,
+    /// Tree cost counted, per ray that hits the root's box.
+    pub c_counted: f64,
+    /// Counted over expected; empty where nothing is expected.
+    pub ratio: Option<f64>,
 }
 
 /// Nodes of one tree held against what theory says of rays that begin inside. A row of `exact.csv`.

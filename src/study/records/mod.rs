@@ -16,7 +16,7 @@ use serde::{Deserialize, Serialize};
 pub use calibration::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, TimeVerdicts,
 };
-pub use assumptions::{BiasRecord, ExactRecord, GroupRecord, OrderRecord, VisitRecord};
+pub use assumptions::{BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord};
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 

@@ -1,0 +1,228 @@
+//! The surface area metric beside those that give up an assumption: cost counted over expected, before and after.
+
+use plotters::style::text_anchor::{HPos, VPos};
+
+use super::Assumptions;
+use super::rows::{HEADINGS, Rows};
+use super::tables::{arithmetic, geometric, value};
+use crate::report::axis::{Axis, extent};
+use crate::report::figure::{Figure, LEFT, WIDTH};
+use crate::report::legend::{Key, legend};
+use crate::report::number::fixed;
+use crate::report::palette::{AXIS, INK, Look, MUTED, Marker, VERMILLION, faded};
+use crate::report::panel::{Frame, Panel};
+use crate::report::series::distinct;
+use crate::report::table::{Cell, Column, Table};
+use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
+use crate::study::records::{MetricRecord, OrderRecord, Summary};
+
+const TITLE: &str = "Do metrics that give up an assumption predict such rays better?";
+/// The surface area metric's name.
+pub const AREA: &str = "area";
+const BEFORE: Look = Look {
+    colour: AXIS,
+    marker: Marker::Disc,
+};
+const AFTER: Look = Look {
+    colour: VERMILLION,
+    marker: Marker::Diamond,
+};
+/// Room for what stands at the right, and where its columns end.
+const NOTES: f64 = 150.0;
+const COLUMNS: [f64; 3] = [70.0, 40.0, 2.0];
+
+/// What one metric makes of one set of rays, over all trees.
+struct Fit<'r> {
+    metric: &'r str,
+    /// C counted over expected, of each tree.
+    ratios: Vec<f64>,
+    /// Of the strategies' order, of each scene.
+    taus: Vec<f64>,
+    /// What taking the tree that it expects to be cheapest costs above the cheapest, of each scene.
+    regrets: Vec<f64>,
+}
+
+impl<'r> Fit<'r> {
+    fn of(run: &'r Assumptions, set: &str, metric: &'r str) -> Self {
+        let own = |row: &&MetricRecord| row.rays == set && row.metric == metric;
+        let orders = || {
+            let own = |row: &&OrderRecord| row.rays == set && row.metric == metric;
+            run.orders.iter().chain(&run.others).filter(own)
+        };
+        let ratios = run.metrics.iter().filter(own).filter_map(|row| row.ratio);
+        Fit {
+            metric,
+            ratios: ratios.filter(|ratio| *ratio > 0.0).collect(),
+            taus: orders().filter_map(|row| row.tau).collect(),
+            regrets: orders().filter_map(|row| row.regret).collect(),
+        }
+    }
+
+    /// Least, geometric mean and largest ratio.
+    fn range(&self) -> Option<[f64; 3]> {
+        let (least, largest) = extent(self.ratios.iter().copied())?;
+        Some([least, geometric(&self.ratios)?, largest])
+    }
+
+    /// By what factor it errs in the mean: exp of the mean of |ln ratio|.
+    fn error(&self) -> Option<f64> {
+        let all: Vec<f64> = self.ratios.iter().map(|ratio| ratio.ln().abs()).collect();
+        arithmetic(&all).map(f64::exp)
+    }
+
+    /// Scatter of the ratios: exp of the standard deviation of ln ratio.
+    fn scatter(&self) -> Option<f64> {
+        let all: Vec<f64> = self.ratios.iter().map(|ratio| ratio.ln()).collect();
+        let mean = arithmetic(&all)?;
+        let squares: Vec<f64> = all.iter().map(|l| (l - mean) * (l - mean)).collect();
+        arithmetic(&squares).map(|variance| variance.sqrt().exp())
+    }
+}
+
+/// The metric that suits a set of rays.
+fn suited<'r>(run: &'r Assumptions, set: &str) -> &'r str {
+    let own = |row: &&MetricRecord| row.rays == set && row.suited;
+    run.metrics
+        .iter()
+        .find(own)
+        .map_or(AREA, |row| &*row.metric)
+}
+
+/// The figure of all sets.
+pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
+    let caption = format!(
+        "Tree cost C, counted over expected, per ray that hits the root's box: range over all trees (scenes by strategies, stop \
+         {}), mark at the geometric mean. Grey: the surface area metric. Red: the metric whose rays begin and end most like these, \
+         named at the right; no other is offered where nothing is stopped or begins inside. Error: the factor by which it errs in \
+         the mean (exp of the mean of |ln ratio|), before → after. τ: Kendall's rank correlation of the strategies' costs, mean over \
+         the scenes. Blue dots: assumptions that the rays break. Seed {}.",
+        summary.stop.as_deref().unwrap_or("unknown"),
+        summary.seed
+    );
+    let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
+    let keys = [
+        (Key::Mark(BEFORE), "surface area metric".to_owned()),
+        (Key::Mark(AFTER), "metric that suits the rays".to_owned()),
+    ];
+    let top = 38.0 + HEADINGS;
+    let rows = Rows::of(run, top);
+    let bottom = rows.bottom();
+    let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
+    Figure::draw(TITLE, WIDTH, height, |pen| {
+        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+        let edge = WIDTH - LEFT;
+        rows.draw(pen, edge);
+        let frame = Frame {
+            left: rows.right,
+            top,
+            right: edge - NOTES,
+            bottom,
+        };
+        let ratios = run
+            .metrics
+            .iter()
+            .filter(|row| row.suited || row.metric == AREA);
+        let ratios = ratios.filter_map(|row| row.ratio).filter(|r| *r > 0.0);
+        let (low, high) = extent(ratios.chain([1.0])).unwrap_or((0.5, 2.0));
+        let room = (high / low).powf(0.04).max(1.02);
+        let x = Axis::log("C counted / expected", low / room, high * room, 6);
+        // Downwards, in points.
+        let y = Axis {
+            ticks: Vec::new(),
+            ..Axis::linear("", -frame.bottom, -frame.top, 1)
+        };
+        let mut panel = Panel::new(pen, frame, x, y);
+        panel.line(&[(1.0, -frame.top), (1.0, -frame.bottom)], INK, 0.7);
+        let note = |text: &str, column: usize, y: f64, lift: VPos| {
+            let at = (edge - COLUMNS[column], y);
+            pen.text(text, at, SMALL, MUTED, (HPos::Right, lift));
+        };
+        for (column, text) in ["metric", "error", "τ"].iter().enumerate() {
+            note(text, column, top - 4.0, VPos::Bottom);
+        }
+        for (i, set) in rows.sets.iter().enumerate() {
+            let before = Fit::of(run, set, AREA);
+            let other = Some(suited(run, set)).filter(|metric| *metric != AREA);
+            let after = other.map(|metric| Fit::of(run, set, metric));
+            let mut draw = |fit: &Fit, look: Look, lift: f64| {
+                let y = -rows.middle(i) + lift;
+                if let Some([least, mean, largest]) = fit.range() {
+                    panel.line(&[(least, y), (largest, y)], faded(look.colour, 0.75), 0.9);
+                    panel.mark((mean, y), look.marker, 1.9, look.colour);
+                }
+            };
+            let apart = if after.is_some() { 2.5 } else { 0.0 };
+            draw(&before, BEFORE, apart);
+            let both = |of: fn(&Fit) -> Option<f64>, decimals: usize| {
+                let show = |fit: &Fit| of(fit).map(|value| fixed(value, decimals));
+                let all = [show(&before), after.as_ref().and_then(show)];
+                all.into_iter().flatten().collect::<Vec<_>>().join(" → ")
+            };
+            let y = rows.middle(i);
+            note(&both(|fit| fit.error(), 2), 1, y, VPos::Center);
+            note(&both(|fit| arithmetic(&fit.taus), 2), 2, y, VPos::Center);
+            if let Some(after) = &after {
+                draw(after, AFTER, -apart);
+                note(after.metric, 0, y, VPos::Center);
+            }
+        }
+    })
+}
+
+/// Every metric and every set of rays.
+pub fn table(run: &Assumptions) -> Table {
+    let columns = vec![
+        Column::left("rays", "rays"),
+        Column::left("metric", "metric"),
+        Column::left("suits", "suited"),
+        Column::right("C", "ratio"),
+        Column::right("least", "ratio_least"),
+        Column::right("largest", "ratio_largest"),
+        Column::right("scatter ×/÷", "scatter"),
+        Column::right("error ×/÷", "error"),
+        Column::right("τ", "tau"),
+        Column::right("regret, %", "regret_pct"),
+    ];
+    let metrics = distinct(run.metrics.iter().map(|row| row.metric.as_str()));
+    let row = |set: &str, metric: &str| {
+        let fit = Fit::of(run, set, metric);
+        let [least, mean, largest] = match fit.range() {
+            Some(range) => range.map(Some),
+            None => [None; 3],
+        };
+        let suits = if suited(run, set) == metric {
+            "yes"
+        } else {
+            ""
+        };
+        vec![
+            Cell::Text(set.to_owned()),
+            Cell::Text(metric.to_owned()),
+            Cell::Text(suits.to_owned()),
+            value(mean, 3),
+            value(least, 3),
+            value(largest, 3),
+            value(fit.scatter(), 2),
+            value(fit.error(), 2),
+            value(arithmetic(&fit.taus), 2),
+            value(arithmetic(&fit.regrets).map(|regret| 100.0 * regret), 2),
+        ]
+    };
+    let rows = run.sets().into_iter().flat_map(|set| {
+        let one = |metric: &&str| row(set, metric);
+        metrics.iter().map(one).collect::<Vec<_>>()
+    });
+    Table {
+        caption: "Metrics before and after giving up an assumption: tree cost C counted over expected, per ray that hits the root's box; \
+                  geometric mean over all trees, least, largest, and the scatter of the trees about the mean (exp of the standard \
+                  deviation of the logarithm); error: the factor by which the metric errs in the mean (exp of the mean of |ln ratio|). \
+                  τ: Kendall's rank correlation of the strategies' costs expected and counted, mean over the scenes; regret: what the \
+                  tree that the metric expects to be cheapest costs above the cheapest, likewise. Suits: its rays begin and end most \
+                  like these."
+            .to_owned(),
+        columns,
+        keys: 2,
+        rows: rows.collect(),
+    }
+}
