@@ -28,8 +28,8 @@ const AFTER: Look = Look {
     marker: Marker::Diamond,
 };
 /// Room for what stands at the right, and where its columns end.
-const NOTES: f64 = 150.0;
-const COLUMNS: [f64; 3] = [70.0, 40.0, 2.0];
+const NOTES: f64 = 186.0;
+const COLUMNS: [f64; 3] = [118.0, 59.0, 2.0];
 
 /// What one metric makes of one set of rays, over all trees.
 struct Fit<'r> {

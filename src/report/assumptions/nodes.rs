@@ -10,7 +10,9 @@ use crate::report::legend::{Key, legend};
 use crate::report::number::{fixed, grouped, significant};
 use crate::report::palette::{INK, MUTED, SKY, faded, viridis};
 use crate::report::panel::{Frame, Panel};
-use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
+use crate::report::text::{
+    LEADING, MEDIUM, SMALL, caption_lines, fit, text_width, title_and_caption,
+};
 use crate::study::records::{Summary, VisitRecord};
 use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -23,6 +25,8 @@ const PITCH: (f64, f64) = (164.0, 135.0);
 const FIRST: (f64, f64) = (38.0, 66.0);
 /// What chance alone does to 95 % of the nodes.
 const BAND: RGBAColor = faded(SKY, 0.32);
+/// Behind a remark that nodes may reach.
+const BACKING: RGBAColor = RGBAColor(255, 255, 255, 0.8);
 /// Ratios beyond these are drawn at the edge.
 const REACH: (f64, f64) = (1.0 / 50.0, 50.0);
 
@@ -37,7 +41,8 @@ pub fn figure(
     let strategy = summary.figure_strategy.as_deref().unwrap_or_default();
     let caption = format!(
         "Nodes of one tree ({scene}, strategy {strategy}, stop {}), counted over N p, their hits predicted from surface areas: \
-         1 where the metric is right. N rays hit the root's box ({}). Only nodes with N p ≥ 25; on the lower edge: that or less. Colour: \
+         1 where the metric is right. N rays hit the root's box ({}). Nodes with N p ≥ 25, of all \
+         but the 500 largest at most 1,500; on an edge: that or beyond. Colour: \
          distance of the node's centre from the root's, over half of the root's diagonal. C ×: tree cost counted over predicted; \
          nodes ×/÷: a standard deviation of the nodes' ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
          strategies' costs, predicted and counted. Seed {}.{}",
@@ -60,7 +65,7 @@ pub fn figure(
         (Key::Area(BAND), "95 % of chance"),
     ];
     let keys = keys.map(|(key, text)| (key, text.to_owned()));
-    let axes = Axes::of(&run.visits);
+    let axes = Axes::of(run.visits.iter().filter(|row| sets.contains(&&*row.rays)));
     let lines = sets.len().div_ceil(COLUMNS);
     let bottom = FIRST.1 + PITCH.1 * (lines - 1) as f64 + SIZE.1;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
@@ -94,16 +99,16 @@ fn rays_each(run: &Assumptions, sets: &[&str]) -> String {
     }
 }
 
-/// The ranges that all panels of all pages share.
+/// The ranges that all panels of a figure share.
 struct Axes {
     p: (f64, f64),
     ratio: (f64, f64),
 }
 
 impl Axes {
-    fn of(visits: &[VisitRecord]) -> Self {
-        let p = extent(visits.iter().map(|row| row.p)).unwrap_or((0.1, 1.0));
-        let (lo, hi) = extent(visits.iter().map(ratio)).unwrap_or((0.5, 2.0));
+    fn of<'r>(visits: impl Iterator<Item = &'r VisitRecord> + Clone) -> Self {
+        let p = extent(visits.clone().map(|row| row.p)).unwrap_or((0.1, 1.0));
+        let (lo, hi) = extent(visits.map(ratio)).unwrap_or((0.5, 2.0));
         Axes {
             p: (p.0, 1.0),
             ratio: (
@@ -176,7 +181,11 @@ fn draw(
         MUTED,
         (HPos::Left, VPos::Bottom),
     );
-    panel.note(&summary_of(run, set, tree), false);
+    let summary = summary_of(run, set, tree);
+    let (left, top) = (frame.left + 1.5, frame.top + 1.0);
+    let end = left + 4.0 + text_width(&summary, SMALL);
+    pen.rectangle((left, top), (end, top + 10.0), BACKING);
+    panel.note(&summary, false);
 }
 
 /// How much in total, per node, and for the order of the strategies.

@@ -12,6 +12,8 @@ use crate::report::text::{MEDIUM, SMALL, fit, text_width};
 pub const ROW: f64 = 11.6;
 /// Width of a column of dots.
 const COLUMN: f64 = 11.0;
+/// Between the columns and what follows.
+const GAP: f64 = 4.0;
 /// Room of the columns' headings, which read upwards.
 pub const HEADINGS: f64 = 50.0;
 /// Longer names are shortened.
@@ -40,7 +42,7 @@ impl<'r> Rows<'r> {
         let widest = names.iter().map(|name| text_width(name, MEDIUM));
         Rows {
             top,
-            right: LEFT + widest.fold(0.0, f64::max) + 5.0 + 3.0 * COLUMN,
+            right: LEFT + widest.fold(0.0, f64::max) + 5.0 + 3.0 * COLUMN + GAP,
             names,
             broken: sets.iter().map(|set| Broken::of(&run.bias, set)).collect(),
             sets,
@@ -59,12 +61,12 @@ impl<'r> Rows<'r> {
 
     /// Names and dots; thin lines from row to row as far as `end`.
     pub fn draw(&self, pen: &Pen, end: f64) {
-        let first = self.right - 2.5 * COLUMN;
+        let first = self.right - GAP - 2.5 * COLUMN;
         for (i, (name, broken)) in self.names.iter().zip(&self.broken).enumerate() {
             let y = self.middle(i);
             let below = self.top + ROW * (i + 1) as f64;
             pen.line(&[(LEFT, below), (end, below)], GRID, 0.4);
-            let at = (self.right - 3.0 * COLUMN - 5.0, y);
+            let at = (self.right - GAP - 3.0 * COLUMN - 5.0, y);
             pen.text(name, at, MEDIUM, INK, (HPos::Right, VPos::Center));
             for (c, is) in broken.marks().into_iter().enumerate() {
                 let at = (first + COLUMN * c as f64, y);

@@ -288,7 +288,7 @@ mod tests {
 
     /// The least p-value of the exact checks, for rays of one kind under the name of another.
     fn exact_p(of: &str, named: &str) -> f64 {
-        let scene = Scene::load("spd:balls:2").expect("a scene");
+        let scene = Scene::load("simple:uniform:300").expect("a scene");
         let rules = Rules {
             strategy: Strategy::Sah,
             stop: StopRule::Objects {
@@ -301,7 +301,7 @@ mod tests {
         let lines = LineRule::exactly(1 << 16).expect("enough lines");
         let plan = &CellPlan::of_scene(&scene, &[rules], 4, lines)[0];
         let number = Number {
-            rays: 1 << 13,
+            rays: 1 << 14,
             pixels: 1,
         };
         let set = of.parse().expect("a set");

@@ -13,6 +13,10 @@ use super::visits::Visits;
 /// from normal.
 pub const LEAST_EXPECTED: f64 = 25.0;
 
+/// Nodes kept of a tree that is drawn: so many of the largest, and at most so many of the others.
+const LARGEST: usize = 500;
+const OTHERS: usize = 1500;
+
 /// Where each node is.
 pub struct Places {
     /// Depth (root = 0).
@@ -151,7 +155,7 @@ impl Errors<'_> {
         self.places.groups().into_iter().map(row).collect()
     }
 
-    /// The rows of `visits.csv`: the nodes that are judged.
+    /// The rows of `visits.csv`: of the nodes that are judged, the largest, and of the others every so many, in order of size.
     pub fn visits(&self, rays: &str) -> Vec<VisitRecord> {
         let row = |i: usize| VisitRecord {
             rays: rays.into(),
@@ -162,7 +166,13 @@ impl Errors<'_> {
             hits: self.visits.hits[i],
             entered: self.visits.entered(),
         };
-        self.judged().into_iter().map(row).collect()
+        let mut nodes = self.judged();
+        let p = &self.places.p;
+        nodes.sort_by(|&i, &j| p[j].total_cmp(&p[i]).then(i.cmp(&j)));
+        let others = nodes.split_off(nodes.len().min(LARGEST));
+        let step = others.len().div_ceil(OTHERS).max(1);
+        nodes.extend(others.into_iter().step_by(step));
+        nodes.into_iter().map(row).collect()
     }
 }
 

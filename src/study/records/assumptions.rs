@@ -74,7 +74,7 @@ pub struct GroupRecord {
     pub spread: Option<f64>,
 }
 
-/// What one set of rays does to one node, of the tree in the figure. A row of `visits.csv`.
+/// What one set of rays does to one node, of the tree in the figure. A row of `visits.csv`; of large trees not all nodes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct VisitRecord {
