@@ -1,5 +1,6 @@
 //! What a run of kind `assumptions` left behind, and what is made of it.
 
+mod classes;
 mod metrics;
 mod names;
 mod nodes;
@@ -16,14 +17,11 @@ use super::table::Table;
 use super::{Figure, ReportError};
 use crate::study::records::{
     BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, Summary, VisitRecord,
-    WorkRecord,
 };
 
 /// The files of a run of kind `assumptions`.
 #[derive(Clone, Debug)]
 pub struct Assumptions {
-    /// `work.csv`.
-    pub work: Vec<WorkRecord>,
     /// `bias.csv`.
     pub bias: Vec<BiasRecord>,
     /// `nodes-by.csv`.
@@ -51,7 +49,6 @@ impl Assumptions {
             .into_iter()
             .partition(|row: &OrderRecord| row.metric == metrics::AREA);
         Ok(Self {
-            work: rows_of(&some("work.csv"))?,
             bias: rows_of(&some("bias.csv"))?,
             groups: rows_of(&some("nodes-by.csv"))?,
             visits: optional_rows(&some("visits.csv"))?.unwrap_or_default(),
@@ -96,7 +93,7 @@ impl Assumptions {
     pub(super) fn tables(&self, summary: &Summary) -> Vec<(&'static str, Table)> {
         let mut tables = vec![
             ("totals", tables::totals(self)),
-            ("bias", tables::bias(self)),
+            ("bias", classes::table(self)),
             ("order", tables::order(self)),
             ("metrics", metrics::table(self)),
             ("verdicts", super::tables::verdicts(summary)),

@@ -118,7 +118,7 @@ pub fn is_folder_name(name: &str) -> bool {
 }
 
 /// The keys that every kind has.
-const HEAD: [&str; 6] = ["kind", "question", "seed", "scenes", "cost"];
+const HEAD: [&str; 5] = ["kind", "question", "seed", "scenes", "cost"];
 
 /// What stands in them.
 #[derive(Deserialize)]

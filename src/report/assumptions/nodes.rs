@@ -7,7 +7,7 @@ use super::names::{Broken, words};
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::{Figure, LEFT, Pen, WIDTH};
 use crate::report::legend::{Key, legend};
-use crate::report::number::{fixed, grouped, significant};
+use crate::report::number::{fixed, grouped};
 use crate::report::palette::{INK, MUTED, SKY, faded, viridis};
 use crate::report::panel::{Frame, Panel};
 use crate::report::text::{
@@ -200,7 +200,7 @@ fn summary_of(run: &Assumptions, set: &str, tree: (&str, &str)) -> String {
         .find(|row| row.scene == tree.0 && row.rays == set);
     let parts = [
         row.and_then(|row| row.c)
-            .map(|c| format!("C × {}", significant(c, 2))),
+            .map(|c| format!("C × {}", fixed(c, 2))),
         row.and_then(|row| row.spread)
             .map(|s| format!("nodes ×/÷ {}", fixed(s.exp(), 2))),
         order

@@ -4,7 +4,7 @@ use super::Assumptions;
 use super::names::{Broken, words};
 use crate::report::number::percent_above;
 use crate::report::table::{Cell, Column, Table};
-use crate::study::records::{BiasRecord, ExactRecord, GroupRecord, OrderRecord};
+use crate::study::records::{BiasRecord, ExactRecord, OrderRecord};
 
 /// Geometric mean of positive numbers; `None` of nothing.
 pub fn geometric(values: &[f64]) -> Option<f64> {
@@ -149,68 +149,6 @@ pub fn totals(run: &Assumptions) -> Table {
                   nodes below the root that at least 25 rays are predicted to hit, weighted by p, sampling noise taken out. Rank \
                   correlation: Spearman's, over these nodes, of p and hits, mean over the trees; sampling noise lowers it, as it does the \
                   control's."
-            .to_owned(),
-        columns,
-        keys: 1,
-        rows: OfSet::all(run).into_iter().map(row).collect(),
-    }
-}
-
-/// A class of nodes: its heading, its name for machines, and whether a group is in it.
-type Class = (&'static str, &'static str, fn(&GroupRecord) -> bool);
-
-/// Classes of nodes by size and by place. Groups begin and end at half decades of p and at tenths.
-const CLASSES: [Class; 6] = [
-    ("p > 0.1", "p_above_0_1", |g| g.by == "area" && g.lo > -1.2),
-    ("p 0.01 to 0.1", "p_0_01_to_0_1", |g| {
-        g.by == "area" && g.lo < -1.2 && g.lo > -2.2
-    }),
-    ("p < 0.01", "p_below_0_01", |g| {
-        g.by == "area" && g.lo < -2.2
-    }),
-    ("at the centre", "distance_below_0_3", |g| {
-        g.by == "distance" && g.lo < 0.25
-    }),
-    ("between", "distance_0_3_to_0_6", |g| {
-        g.by == "distance" && g.lo > 0.25 && g.lo < 0.55
-    }),
-    ("far out", "distance_above_0_6", |g| {
-        g.by == "distance" && g.lo > 0.55
-    }),
-];
-
-/// Where the metric errs: by the size of nodes and by their place.
-pub fn bias(run: &Assumptions) -> Table {
-    let mut columns = vec![Column::left("rays", "rays")];
-    columns.extend(CLASSES.map(|(title, key, _)| Column::right(title, key)));
-    let row = |of: OfSet| {
-        let mut row = vec![Cell::Text(of.set.to_owned())];
-        for (_, _, is_in) in CLASSES {
-            let ratios: Vec<f64> = of
-                .bias
-                .iter()
-                .filter_map(|tree| {
-                    let own = run.groups.iter().filter(|g| {
-                        (&g.scene, &g.strategy, &g.rays)
-                            == (&tree.scene, &tree.strategy, &tree.rays)
-                            && is_in(g)
-                    });
-                    let (hits, predicted) = own.fold((0.0, 0.0), |(hits, predicted), g| {
-                        let entered = g.entered as f64;
-                        (hits + g.hits as f64, predicted + entered * g.p_sum)
-                    });
-                    (predicted > 0.0).then_some(hits / predicted)
-                })
-                .filter(|ratio| *ratio > 0.0)
-                .collect();
-            row.push(value(geometric(&ratios), 3));
-        }
-        row
-    };
-    Table {
-        caption: "Where the metric errs: visits counted over predicted of nodes by their predicted hit probability p, and by the \
-                  distance of their centre from the root's, over half of the root's diagonal (at the centre: below 0.3; far out: above \
-                  0.6). Geometric means over all trees."
             .to_owned(),
         columns,
         keys: 1,

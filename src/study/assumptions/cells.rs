@@ -2,24 +2,22 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::geom::{Aabb, Cast};
-use crate::kd::{Ask, Prediction, Tree, predict};
-use crate::rays::Source;
+use crate::kd::predict;
 use crate::scene::Scene;
 use crate::study::hits::cell::{CellPlan, plant};
 use crate::study::identity::{digest, whole};
-use crate::study::ray_sets::{Rays, RaysOf, gather};
+use crate::study::ray_sets::gather;
 use crate::study::records::{
     BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord, WorkRecord,
 };
 use crate::study::{LineRule, Plan, Watcher};
 
-use super::asked::{Assumptions, is_uniform};
-use super::exact::{self, Inside, Share};
+use super::asked::Assumptions;
 use super::metrics::{self, METRICS};
 use super::nodes::{Errors, Places};
+use super::one::One;
 use super::order::{Ranked, order};
-use super::visits::{Visits, count};
+use super::visits::count;
 
 /// What was found in a scene.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -40,6 +38,25 @@ pub struct Found {
     pub exact: Vec<ExactRecord>,
 }
 
+impl Found {
+    /// Add the rows of one set of rays in one tree.
+    fn add(&mut self, asked: &Assumptions, one: &One<'_>) {
+        let (scene, strategy) = (&*one.plan.scene.name, one.plan.rules.strategy);
+        let set = one.rays.of.to_string();
+        let counted = &one.errors.visits.counted;
+        let cost = one.plan.rules.cost;
+        let record = counted.record(one.plan, one.rays, cost, one.prediction);
+        self.work.push(record);
+        self.bias.push(one.bias());
+        self.groups
+            .extend(one.errors.groups(scene, &strategy.name(), &set));
+        if (&*asked.figure.scene, asked.figure.strategy) == (scene, strategy) {
+            self.visits.extend(one.errors.visits(&set));
+        }
+        self.exact.extend(one.exact());
+    }
+}
+
 /// The trees of a scene, and the identity of all that is measured of it.
 pub struct SceneCell<'a> {
     /// Identity.
@@ -51,7 +68,8 @@ pub struct SceneCell<'a> {
 impl<'a> SceneCell<'a> {
     /// The cell of a scene.
     pub fn of(plan: &Plan, asked: &Assumptions, scene: &'a Scene) -> Self {
-        let lines = LineRule::exactly(asked.number.max(1 << 16)).expect("enough lines");
+        // No stream of lines is counted, but a cell names how many.
+        let lines = LineRule::exactly(1 << 16).expect("enough lines");
         let trees = CellPlan::of_scene(scene, &asked.rules(plan), plan.seed, lines);
         let drawn = (asked.figure.scene == scene.name).then_some(asked.figure.strategy);
         let ids: Vec<&str> = trees.iter().map(|tree| &*tree.id).collect();
@@ -68,11 +86,6 @@ impl<'a> SceneCell<'a> {
         }
     }
 }
-
-/// Isotropic lines behind an exact expectation, for each counted ray.
-const LINES_A_RAY: u64 = 16;
-/// Nodes of a tree, the largest ones below the root, that are held against exact expectations.
-const EXACT_NODES: usize = 200;
 
 /// Measure a scene.
 ///
@@ -117,7 +130,7 @@ pub fn measure(
                     complete: rays.complete,
                 },
             };
-            one.look(asked, &mut found);
+            found.add(asked, &one);
             let rows = metrics::records(plan, rays, &visits, &expected);
             found.metrics.extend(rows);
             own.push(visits.costs);
@@ -145,200 +158,4 @@ pub fn measure(
         }
     }
     Ok(found)
-}
-
-/// One set of rays in one tree.
-struct One<'a> {
-    plan: &'a CellPlan<'a>,
-    tree: &'a Tree,
-    prediction: &'a Prediction,
-    rays: &'a Rays,
-    errors: Errors<'a>,
-}
-
-impl One<'_> {
-    fn look(&self, asked: &Assumptions, found: &mut Found) {
-        let (scene, strategy) = (&*self.plan.scene.name, self.plan.rules.strategy);
-        let set = self.rays.of.to_string();
-        let counted = &self.errors.visits.counted;
-        let cost = self.plan.rules.cost;
-        let record = counted.record(self.plan, self.rays, cost, self.prediction);
-        found.work.push(record);
-        found.bias.push(self.bias());
-        found
-            .groups
-            .extend(self.errors.groups(scene, &strategy.name(), &set));
-        if (&*asked.figure.scene, asked.figure.strategy) == (scene, strategy) {
-            found.visits.extend(self.errors.visits(&set));
-        }
-        found.exact.extend(self.exact());
-    }
-
-    /// The row of `bias.csv`.
-    fn bias(&self) -> BiasRecord {
-        let visits: &Visits = self.errors.visits;
-        let (entered, work) = (visits.entered(), visits.counted.work);
-        let cost = self.plan.rules.cost;
-        let Prediction { n_k, n_b, n_t, .. } = *self.prediction;
-        let ratio = |counted: f64, predicted: f64| {
-            let n = entered as f64 * predicted;
-            (n > 0.0).then(|| counted / n)
-        };
-        let [inner, leaves, tests] = [work.inner, work.leaves, work.tests].map(|n| n as f64);
-        let judged = self.errors.judged();
-        let cast = self.rays.casts.len() as f64;
-        let stops = self.rays.of.ask() != Ask::All;
-        BiasRecord {
-            cell: self.plan.id.clone(),
-            scene: self.plan.scene.name.clone(),
-            strategy: self.plan.rules.strategy.name(),
-            rays: self.rays.of.to_string(),
-            uniform: is_uniform(self.rays.of),
-            inside: inside(self.rays, &self.tree.world) as f64 / cast,
-            stopped: if stops {
-                visits.counted.hits as f64 / cast
-            } else {
-                0.0
-            },
-            entered,
-            visits: ratio(inner + leaves, n_k + n_b),
-            n_k: ratio(inner, n_k),
-            n_b: ratio(leaves, n_b),
-            n_t: ratio(tests, n_t),
-            c: ratio(cost.cost(inner, leaves, tests), cost.cost(n_k, n_b, n_t)),
-            judged: judged.len() as u64,
-            spread: self.errors.spread(&judged),
-            rank_correlation: self.errors.rank_correlation(&judged),
-        }
-    }
-
-    /// The rows of `exact.csv`, of rays that theory knows, in a root with a volume.
-    fn exact(&self) -> Vec<ExactRecord> {
-        let root = &self.tree.world;
-        let Some(inside) = Inside::of(self.rays.of).filter(|_| root.volume() > 0.0) else {
-            return Vec::new();
-        };
-        let p = &self.prediction.p;
-        let mut nodes: Vec<usize> = (1..p.len()).filter(|&i| p[i] > 0.0).collect();
-        nodes.sort_by(|&i, &j| p[j].total_cmp(&p[i]).then(i.cmp(&j)));
-        nodes.truncate(EXACT_NODES);
-        let boxes: Vec<Aabb> = nodes.iter().map(|&i| self.tree.boxes[i]).collect();
-        let lines = LINES_A_RAY * self.rays.casts.len() as u64;
-        let shares = exact::expected(root, &boxes, inside, self.plan.line_seed, lines);
-        let by_lines = nodes.iter().copied().zip(shares).collect();
-        let mut rows = vec![self.worst("lines", by_lines)];
-        if inside == Inside::Segment {
-            let slab = |i: &usize| {
-                let share = exact::slab(root, &self.tree.boxes[*i])?;
-                Some((*i, Share::known(share)))
-            };
-            rows.push(self.worst("slab", nodes.iter().filter_map(slab).collect()));
-        }
-        rows.into_iter().flatten().collect()
-    }
-
-    /// The row of these expectations; `None` where no node can be judged.
-    fn worst(&self, by: &str, shares: Vec<(usize, Share)>) -> Option<ExactRecord> {
-        let cast = self.rays.casts.len() as u64;
-        let hits = &self.errors.visits.hits;
-        let judge =
-            |(i, share): (usize, Share)| Some((exact::p_value(share, hits[i], cast)?, i, share));
-        let judged: Vec<_> = shares.into_iter().filter_map(judge).collect();
-        let nodes = judged.len() as u64;
-        let least = judged.into_iter().min_by(|a, b| a.0.total_cmp(&b.0));
-        least.map(|(p_value, node, share)| ExactRecord {
-            scene: self.plan.scene.name.clone(),
-            strategy: self.plan.rules.strategy.name(),
-            rays: self.rays.of.to_string(),
-            by: by.into(),
-            nodes,
-            node: node as u64,
-            p: self.prediction.p[node],
-            expected: share.mean,
-            expected_se: share.se,
-            counted: hits[node] as f64 / cast as f64,
-            p_value,
-        })
-    }
-}
-
-/// Rays that begin inside the root's box.
-fn inside(rays: &Rays, root: &Aabb) -> usize {
-    let begins_inside = |cast: &&Cast| {
-        let origin = cast.origin + cast.span.t0.max(f64::MIN) * cast.direction;
-        cast.span.t0.is_finite() && root.contains(&Aabb::new(origin, origin))
-    };
-    rays.casts.iter().filter(begins_inside).count()
-}
-
-/// Whether a set is of a source, and which: to find the sets of the same rays that ask something else.
-pub fn source_of(set: &str) -> Option<(Source, Ask)> {
-    match set.parse() {
-        Ok(RaysOf::Source(source, ask)) => Some((source, ask)),
-        _ => None,
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cost::CostModel;
-    use crate::kd::{Rules, StopRule, Strategy};
-    use crate::study::ray_sets::Number;
-
-    /// The least p-value of the exact checks, for rays of one kind under the name of another.
-    fn exact_p(of: &str, named: &str) -> f64 {
-        let scene = Scene::load("simple:uniform:300").expect("a scene");
-        let rules = Rules {
-            strategy: Strategy::Sah,
-            stop: StopRule::Objects {
-                limit: 2,
-                depth: Some(10),
-            },
-            cost: CostModel::WALD_HAVRAN,
-            clipped: false,
-        };
-        let lines = LineRule::exactly(1 << 16).expect("enough lines");
-        let plan = &CellPlan::of_scene(&scene, &[rules], 4, lines)[0];
-        let number = Number {
-            rays: 1 << 14,
-            pixels: 1,
-        };
-        let set = of.parse().expect("a set");
-        let mut rays = gather(&scene, &[set], number, plan.line_seed).expect("rays");
-        let (tree, _) = plant(&scene, &rules).expect("a tree");
-        let prediction = predict(&tree);
-        let places = Places::of(&tree, &prediction);
-        let visits = count(&tree, &scene.objects, &rays[0], rules.cost).expect("counts");
-        rays[0].of = named.parse().expect("a set");
-        let one = One {
-            plan,
-            tree: &tree,
-            prediction: &prediction,
-            rays: &rays[0],
-            errors: Errors {
-                places: &places,
-                visits: &visits,
-                complete: false,
-            },
-        };
-        let rows = one.exact();
-        let nodes: u64 = rows.iter().map(|row| row.nodes).sum();
-        assert!(nodes > 20, "{nodes}");
-        let least = rows.iter().map(|row| row.p_value).fold(1.0, f64::min);
-        nodes as f64 * least
-    }
-
-    #[test]
-    fn rays_of_another_law_fail_the_exact_check() {
-        for [own, other] in [
-            ["volume-ray", "volume-segment"],
-            ["volume-segment", "volume-ray"],
-        ] {
-            assert!(exact_p(own, own) > 1e-3, "{own}");
-            assert!(exact_p(other, own) < 1e-12, "{other} as {own}");
-        }
-        assert!(exact_p("volume-line", "volume-ray") < 1e-12);
-        assert!(exact_p("volume-ray:nearest", "volume-ray") < 1e-12);
-    }
 }

@@ -7,6 +7,7 @@ pub mod cells;
 pub mod exact;
 pub mod metrics;
 pub mod nodes;
+pub mod one;
 pub mod order;
 pub mod verdicts;
 pub mod visits;

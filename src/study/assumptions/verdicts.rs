@@ -1,6 +1,7 @@
 //! Verdicts of `assumptions`: each expectation of the plan, and what the counts say of it.
 
 use crate::kd::Ask;
+use crate::rays::Source;
 use crate::stats::normal_quantile;
 use crate::stats::simultaneous_quantile;
 use crate::study::hits::verdicts::simultaneous;
@@ -8,7 +9,6 @@ use crate::study::records::{Estimate, ExactRecord, OrderRecord, Verdict, WorkRec
 use crate::study::{LEVEL, ray_sets::RaysOf};
 
 use super::asked::{Assumptions, Expect, is_control};
-use super::cells::source_of;
 
 /// Every verdict of a run.
 pub fn all(
@@ -129,6 +129,14 @@ fn stops_less(work: &[&WorkRecord]) -> Option<Verdict> {
             pairs.len()
         ),
     })
+}
+
+/// Whether a set is of a source, and which: to find the sets of the same rays that ask something else.
+fn source_of(set: &str) -> Option<(Source, Ask)> {
+    match set.parse() {
+        Ok(RaysOf::Source(source, ask)) => Some((source, ask)),
+        _ => None,
+    }
 }
 
 fn mean(values: &[f64]) -> f64 {
