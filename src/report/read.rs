@@ -7,8 +7,8 @@ use std::path::{Path, PathBuf};
 use serde::de::DeserializeOwned;
 
 use super::ReportError;
-use super::cost_vs_work::CostVsWork;
 use super::assumptions::Assumptions;
+use super::cost_vs_work::CostVsWork;
 use super::hits::Hits;
 use super::split_cost::SplitCost;
 use super::strategies::Strategies;

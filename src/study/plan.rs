@@ -19,8 +19,8 @@ use toml::de::{DeTable, Deserializer};
 use crate::cost::CostModel;
 use crate::kd::Strategy;
 
-use super::cost_vs_work::CostVsWork;
 use super::assumptions::Assumptions;
+use super::cost_vs_work::CostVsWork;
 use super::hits::HitsVsArea;
 use super::record::Record;
 use super::records::{Summary, file_stem};

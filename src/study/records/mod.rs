@@ -4,8 +4,8 @@
 //! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] and [`PassTiming`], both
 //! rows of `timings.csv`, hold times, so every other file is byte-identical for any number of threads.
 
-mod calibration;
 mod assumptions;
+mod calibration;
 mod split_cost;
 mod strategies;
 mod trace;
@@ -13,10 +13,12 @@ mod work;
 
 use serde::{Deserialize, Serialize};
 
+pub use assumptions::{
+    BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord,
+};
 pub use calibration::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, TimeVerdicts,
 };
-pub use assumptions::{BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord};
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 
