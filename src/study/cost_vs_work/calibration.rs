@@ -6,7 +6,7 @@ use std::collections::HashMap;
 use crate::stats::cluster_bootstrap;
 use crate::study::records::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PassTiming, PredictionRecord,
-    TimeVerdicts, Verdict,
+    ShareRecord, TimeVerdicts, Verdict,
 };
 use crate::study::store::{Store, StoreError};
 use crate::study::{Plan, Watcher};
@@ -14,7 +14,8 @@ use crate::study::{Plan, Watcher};
 use super::asked::CostVsWork;
 use super::cells::Measured;
 use super::choice::{CHOSEN, choose};
-use super::fit::{Errors, Fitter, Model, Orders, time};
+use super::fit::{Errors, Fitter, Model, Orders};
+use super::shares;
 use super::terms::{Row, Term};
 
 /// Fewest scenes for terms to be chosen without one and judged on it.
@@ -47,12 +48,14 @@ fn given() -> Vec<Model> {
 }
 
 /// What was fitted.
+#[derive(Default)]
 struct Calibrated {
     models: Vec<ModelRecord>,
     constants: Vec<ConstantRecord>,
     choices: Vec<ChoiceRecord>,
     predictions: Vec<PredictionRecord>,
     orders: Vec<OrderOfTimesRecord>,
+    shares: Vec<ShareRecord>,
 }
 
 /// Fit constants to the seconds of a run and write what came of it; of too few scenes nothing.
@@ -71,13 +74,7 @@ pub fn write(
             "constants are fitted to at least {FEWEST_SCENES} scenes, and judged on those left out; these are {}",
             fitter.scenes.len()
         ));
-        Calibrated {
-            models: Vec::new(),
-            constants: Vec::new(),
-            choices: Vec::new(),
-            predictions: Vec::new(),
-            orders: Vec::new(),
-        }
+        Calibrated::default()
     } else {
         watcher.begin("calibration");
         calibrate(plan, asked, &fitter)
@@ -87,6 +84,7 @@ pub fn write(
     store.write_rows("times-choice.csv", &found.choices)?;
     store.write_rows("times-predictions.csv", &found.predictions)?;
     store.write_rows("times-order.csv", &found.orders)?;
+    store.write_rows("times-shares.csv", &found.shares)?;
     let verdicts = TimeVerdicts {
         verdicts: verdicts(asked, &found.models),
     };
@@ -143,6 +141,10 @@ fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
     let by_group = fitter.left_out(&[], &fitter.groups, choose);
     models.extend(record(&model, GROUP, rows, &by_group));
 
+    let fitted = fitter.constants(&model, 0..fitter.groups.len());
+    let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
+    let shares = shares::by_set(&model, &fitted, rows, &sets);
+
     let shown = given().into_iter().filter(|model| model.ratio.is_none());
     let shown = shown.filter(|model| model.terms.len() > 1).chain([model]);
     let constants = shown.flat_map(|model| constants(plan, asked, fitter, &model));
@@ -170,6 +172,7 @@ fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
         choices,
         predictions,
         orders: orders(plan, asked, rows, &areas, &two, &chosen),
+        shares,
     }
 }
 
@@ -208,18 +211,7 @@ fn constants(
         Some(fitter.constants(model, scenes.copied()))
     });
     let inflation = fitter.inflation(model);
-    let share = |number: usize| {
-        let (term, ns) = (model.terms[number], all[number]);
-        let shares = fitter.rows.iter().map(|row| {
-            let whole = time(model, &all, row);
-            if whole > 0.0 {
-                ns * term.of(row) / whole
-            } else {
-                0.0
-            }
-        });
-        shares.sum::<f64>() / fitter.rows.len() as f64
-    };
+    let shares = shares::mean_shares(model, &all, fitter.rows.iter());
     let constant = |number: usize| ConstantRecord {
         model: model.name.clone(),
         term: model.terms[number].name(),
@@ -227,7 +219,7 @@ fn constants(
         lo: intervals[number].map(|(lo, _)| lo),
         hi: intervals[number].map(|(_, hi)| hi),
         inflation: inflation[number],
-        share: share(number),
+        share: shares[number],
     };
     (0..model.terms.len()).map(constant).collect()
 }

@@ -6,7 +6,9 @@ mod calibration;
 mod cells;
 mod choice;
 mod fit;
+mod order;
 mod processor;
+mod shares;
 mod steps;
 mod terms;
 
@@ -14,7 +16,7 @@ use crate::scene::Scene;
 
 use super::hits;
 use super::hits::cell::CellPlan;
-use super::records::{CellRecord, Estimate, PassTiming, Summary};
+use super::records::{CellRecord, Estimate, PassTiming, Summary, WorkRecord};
 use super::store::{Store, TIMINGS};
 use super::{Plan, RunError, Watcher};
 
@@ -64,7 +66,9 @@ pub(super) fn run(
     calibration::write(plan, asked, &measured, &times, store, watcher)?;
     let records: Vec<CellRecord> = measured.iter().map(|tree| tree.record.clone()).collect();
     store.write_rows("cells.csv", &records)?;
-    store.write_rows("work.csv", measured.iter().flat_map(|tree| &tree.work))?;
+    let work: Vec<&WorkRecord> = measured.iter().flat_map(|tree| &tree.work).collect();
+    store.write_rows("work.csv", &work)?;
+    store.write_rows("order.csv", order::orders(&work))?;
     store.write_rows("steps.csv", measured.iter().flat_map(|tree| &tree.steps))?;
     let estimates = hits::estimates(&records, asked.expect.family);
     let counts: Vec<&Estimate> = estimates.iter().filter(|e| e.name != "slope").collect();

@@ -125,6 +125,18 @@ pub struct OrderOfTimesRecord {
     pub regret_scene: String,
 }
 
+/// Where the time of a set of rays goes, by the chosen terms. A row of `times-shares.csv`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct ShareRecord {
+    /// The set of rays.
+    pub rays: String,
+    /// The term.
+    pub term: String,
+    /// Its share of the predicted time of a ray, mean over scenes and trees.
+    pub share: f64,
+}
+
 /// `times-verdicts.json`: expectations of seconds and what came of them.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct TimeVerdicts {

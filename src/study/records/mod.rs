@@ -17,13 +17,14 @@ pub use assumptions::{
     BiasRecord, ExactRecord, GroupRecord, MetricRecord, OrderRecord, VisitRecord,
 };
 pub use calibration::{
-    ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, TimeVerdicts,
+    ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, ShareRecord,
+    TimeVerdicts,
 };
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 
 pub use trace::{HitRecord, TraceRecord};
-pub use work::{StepRecord, StrategyChoiceRecord, WorkRecord};
+pub use work::{StepRecord, StrategyChoiceRecord, TreeOrderRecord, WorkRecord};
 
 /// Version of the layout of `data/`.
 pub const SCHEMA: u32 = 2;

@@ -144,3 +144,28 @@ pub struct StrategyChoiceRecord {
     /// C counted of that tree.
     pub least_c_counted: f64,
 }
+
+/// The order of a scene's trees under a set of rays: by the cost C that areas predict, and by the one counted. A row of
+/// `order.csv`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct TreeOrderRecord {
+    /// Scene of the trees.
+    pub scene: String,
+    /// The set of rays.
+    pub rays: String,
+    /// Stop rule of the trees, or `all`: trees of all stop rules together.
+    pub stop: String,
+    /// Trees: of a stop rule, one for each strategy.
+    pub trees: u64,
+    /// Kendall's tau-b between C predicted and counted; empty where all trees have the same of either.
+    pub tau: Option<f64>,
+    /// Pairs of trees.
+    pub pairs: u64,
+    /// Pairs that the prediction puts into the order of the count.
+    pub pairs_right: u64,
+    /// Cell of the tree of least C predicted, the first of several.
+    pub taken: String,
+    /// C counted of that tree over the least C counted, minus 1: 0 where it is the cheapest; empty where nothing is counted.
+    pub regret: Option<f64>,
+}
