@@ -25,6 +25,23 @@ pub enum Key {
     Scale(&'static str, &'static str),
 }
 
+impl Key {
+    /// From its left edge to the text.
+    fn width(&self) -> f64 {
+        match self {
+            Key::Mark(_) => MARK,
+            Key::Density(most) => 39.0 + text_width(&at_least(*most), SMALL),
+            Key::Scale(from, to) => 39.0 + text_width(from, SMALL) + text_width(to, SMALL),
+            _ => 18.0,
+        }
+    }
+}
+
+/// Width of a mark with the room behind it.
+const MARK: f64 = 9.0;
+/// Between two entries.
+const GAP: f64 = 13.0;
+
 /// A legend in rows between two edges, from this baseline downwards. Returns the last baseline.
 pub fn legend(
     pen: &Pen,
@@ -32,15 +49,9 @@ pub fn legend(
     mut baseline: f64,
     entries: &[(Key, String)],
 ) -> f64 {
-    const GAP: f64 = 13.0;
     let mut x = left;
     for (key, text) in entries {
-        let symbol = match key {
-            Key::Mark(_) => 9.0,
-            Key::Density(most) => 39.0 + text_width(&at_least(*most), SMALL),
-            Key::Scale(from, to) => 39.0 + text_width(from, SMALL) + text_width(to, SMALL),
-            _ => 18.0,
-        };
+        let symbol = key.width();
         let width = symbol + text_width(text, MEDIUM);
         if x > left && x + width > right {
             (x, baseline) = (left, baseline + LEGEND_LEADING);
@@ -64,13 +75,27 @@ pub const LEGEND_LEADING: f64 = 11.5;
 
 /// Rows `legend` needs for these texts behind marks.
 pub fn legend_rows<'t>(width: f64, texts: impl IntoIterator<Item = &'t str>) -> usize {
+    rows_for(width, texts.into_iter().map(|text| (MARK, text)))
+}
+
+/// Rows `legend` needs for these entries.
+pub fn rows_of(width: f64, entries: &[(Key, String)]) -> usize {
+    rows_for(
+        width,
+        entries
+            .iter()
+            .map(|(key, text)| (key.width(), text.as_str())),
+    )
+}
+
+fn rows_for<'t>(width: f64, entries: impl Iterator<Item = (f64, &'t str)>) -> usize {
     let (mut rows, mut x) = (1, 0.0);
-    for text in texts {
-        let entry = 9.0 + text_width(text, MEDIUM);
+    for (symbol, text) in entries {
+        let entry = symbol + text_width(text, MEDIUM);
         if x > 0.0 && x + entry > width {
             (rows, x) = (rows + 1, 0.0);
         }
-        x += entry + 13.0;
+        x += entry + GAP;
     }
     rows
 }

@@ -192,7 +192,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
         Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
         Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
-        Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), Vec::new()),
+        Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), trees.texts()),
         Content::Assumptions(rays) => (named(rays.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;

@@ -46,11 +46,16 @@ pub enum Content {
 impl Run {
     /// Whether every expectation held, of counts and of seconds.
     pub fn held(&self) -> bool {
+        self.verdicts().all(|v| v.held)
+    }
+
+    /// All expectations and what came of them: of counts, then of seconds.
+    pub fn verdicts(&self) -> impl Iterator<Item = &Verdict> {
         let times: &[Verdict] = match &self.content {
             Content::CostVsWork(trees) => &trees.time_verdicts.verdicts,
             _ => &[],
         };
-        self.summary.verdicts.iter().chain(times).all(|v| v.held)
+        self.summary.verdicts.iter().chain(times)
     }
 
     /// The files of a run of kind `hits-vs-area`.

@@ -147,7 +147,7 @@ const LEAST_GAIN: f64 = 0.005;
 pub(in crate::report) fn verdicts(run: &Run) -> String {
     const MARGIN: usize = 22;
     let mut text = String::from("\n");
-    for v in &run.summary.verdicts {
+    for v in run.verdicts() {
         let mark = if v.held { "held" } else { "MISSED" };
         let message = fold(&v.message, WIDTH - MARGIN).replace('\n', &format!("\n{:MARGIN$}", ""));
         let _ = writeln!(text, "{mark:6}  {:14}{message}", v.name);

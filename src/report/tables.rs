@@ -8,7 +8,7 @@ use super::number::Z99;
 use super::table::{Cell, Column, Table};
 use crate::study::records::CellRecord;
 
-pub use checks::{fits, samplers, verdicts};
+pub use checks::{fits, judged, samplers, verdicts};
 pub use costs::{EQUAL, REFERENCE, costs, extremes, strategies};
 
 /// A p-value, where there is one.

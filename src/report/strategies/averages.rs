@@ -52,7 +52,7 @@ impl<'r> Averages<'r> {
 }
 
 /// What all sizes of a scene have in common: `spd:balls` of `spd:balls:4`.
-fn family(scene: &str) -> &str {
+pub fn family(scene: &str) -> &str {
     match scene.rsplit_once(':') {
         Some((family, _)) if family.contains(':') => family,
         _ => scene,

@@ -4,7 +4,7 @@
 //! Seconds are found only in figures and tables whose names begin with `times-`: all others depend on counts alone and
 //! are the same, byte for byte, in every run.
 
-mod averages;
+pub(super) mod averages;
 mod dots;
 mod findings;
 #[cfg(test)]

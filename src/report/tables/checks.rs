@@ -80,8 +80,13 @@ pub fn samplers(records: &[SamplerRecord]) -> Table {
     }
 }
 
-/// What was expected, and what came of it.
+/// What was expected of a run, and what came of it.
 pub fn verdicts(summary: &Summary) -> Table {
+    judged(&summary.question, &summary.verdicts)
+}
+
+/// Expectations under the question that they belong to.
+pub fn judged(question: &str, verdicts: &[Verdict]) -> Table {
     let row = |v: &Verdict| {
         let held = if v.held { "held" } else { "MISSED" };
         vec![
@@ -91,13 +96,13 @@ pub fn verdicts(summary: &Summary) -> Table {
         ]
     };
     Table {
-        caption: summary.question.clone(),
+        caption: question.to_owned(),
         columns: vec![
             Column::left("expectation", "name"),
             Column::left("verdict", "verdict"),
             Column::sentences("figures", "message"),
         ],
         keys: 1,
-        rows: summary.verdicts.iter().map(row).collect(),
+        rows: verdicts.iter().map(row).collect(),
     }
 }

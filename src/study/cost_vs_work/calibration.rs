@@ -25,11 +25,11 @@ const FEWEST_SCENES: usize = 3;
 const LEVEL: f64 = 0.95;
 
 /// What is left out at a time.
-const SCENE: &str = "scene";
-const GROUP: &str = "group";
+const SCENE: &str = ModelRecord::SCENE;
+const GROUP: &str = ModelRecord::GROUP;
 
 /// The model that areas can be put into.
-const TWO: &str = "n_K, n_t";
+const TWO: &str = ModelRecord::TWO;
 
 /// Models whose terms are given.
 fn given() -> Vec<Model> {
@@ -43,7 +43,7 @@ fn given() -> Vec<Model> {
         ratio("1:80 (pbrt)", 1.0, 80.0),
         ratio("1.2:1 (Aila 2013)", 1.2, 1.0),
         Model::of(TWO, &[Term::Inner, Term::Test]),
-        Model::of("n_K, n_B, n_t", &[Term::Inner, Term::Leaf, Term::Test]),
+        Model::of(ModelRecord::THREE, &[Term::Inner, Term::Leaf, Term::Test]),
     ]
 }
 

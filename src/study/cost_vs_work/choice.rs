@@ -1,13 +1,13 @@
 //! Which terms a model of the time needs: one after the other, as long as the error on scenes left out falls by more than one
 //! standard error.
 
-use crate::study::records::ChoiceRecord;
+use crate::study::records::{ChoiceRecord, ModelRecord};
 
 use super::fit::{Fitter, Model};
 use super::terms::{CANDIDATES, Candidate, Term};
 
 /// The name of the model that results.
-pub const CHOSEN: &str = "chosen terms";
+pub const CHOSEN: &str = ModelRecord::CHOSEN;
 
 /// Choose terms from all scenes but `out`; each step is told.
 pub fn choose(fitter: &Fitter, out: &[usize], mut told: impl FnMut(ChoiceRecord)) -> Model {

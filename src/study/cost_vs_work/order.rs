@@ -14,9 +14,8 @@ pub fn orders(work: &[&WorkRecord]) -> Vec<TreeOrderRecord> {
         let stops = distinct(own.iter().map(|row| row.stop.as_str()));
         for rays in distinct(own.iter().map(|row| row.rays.as_str())) {
             for &stop in stops.iter().chain([&ALL]) {
-                let wanted = |row: &&&WorkRecord| {
-                    row.rays == rays && (stop == ALL || row.stop == stop)
-                };
+                let wanted =
+                    |row: &&&WorkRecord| row.rays == rays && (stop == ALL || row.stop == stop);
                 let trees: Vec<&WorkRecord> = own.iter().filter(wanted).copied().collect();
                 records.extend(order(&trees, stop));
             }
@@ -91,7 +90,16 @@ mod tests {
         let found = orders(&rows.iter().collect::<Vec<_>>());
         let told: Vec<_> = found
             .iter()
-            .map(|o| (&*o.rays, &*o.stop, o.trees, o.pairs, o.pairs_right, &*o.taken))
+            .map(|o| {
+                (
+                    &*o.rays,
+                    &*o.stop,
+                    o.trees,
+                    o.pairs,
+                    o.pairs_right,
+                    &*o.taken,
+                )
+            })
             .collect();
         assert_eq!(
             told,

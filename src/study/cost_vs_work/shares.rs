@@ -77,7 +77,10 @@ mod tests {
         let names = ["lines", "primary"].map(String::from);
         // 2 ns a node and 6 a test: 6 of 12 and 2 of 8, a half and a quarter. A ray that does nothing takes no time.
         let found = by_set(&model, &[2.0, 6.0], &rows, &names);
-        let told: Vec<_> = found.iter().map(|s| (&*s.rays, &*s.term, s.share)).collect();
+        let told: Vec<_> = found
+            .iter()
+            .map(|s| (&*s.rays, &*s.term, s.share))
+            .collect();
         assert_eq!(
             told,
             [

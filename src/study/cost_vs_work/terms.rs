@@ -1,6 +1,6 @@
 //! What the time of a ray may consist of.
 
-use crate::study::records::{CellRecord, StepRecord, WorkRecord};
+use crate::study::records::{CellRecord, ConstantRecord, StepRecord, WorkRecord};
 
 /// A set of rays in a tree: what was counted of a ray, and its seconds.
 pub struct Row<'r> {
@@ -126,16 +126,16 @@ impl Term {
     pub fn name(self) -> String {
         match self {
             Self::Ray => "ray".into(),
-            Self::Inner => "inner node (c_K)".into(),
-            Self::Leaf => "leaf (c_B)".into(),
+            Self::Inner => ConstantRecord::INNER.into(),
+            Self::Leaf => ConstantRecord::LEAF.into(),
             Self::EmptyLeaf => "empty leaf".into(),
-            Self::Test => "object test (c_t)".into(),
+            Self::Test => ConstantRecord::TEST.into(),
             Self::TestOf(kind) => format!("{} test", kind.name()),
             Self::NearOf(kind) => format!("{} test whose box is crossed", kind.name()),
             Self::Corner => "corner of a polygon whose box is crossed".into(),
             Self::Repeated => "repeated test".into(),
             Self::Size => "inner node, per doubling of the tree".into(),
-            Self::Surprise => "branch mispredicted".into(),
+            Self::Surprise => ConstantRecord::SURPRISE.into(),
             Self::FirstMiss => "cache line not in 32 KiB".into(),
             Self::SecondMiss => "cache line not in 1 MiB".into(),
             Self::FarMiss => "cache line not in 1 MiB, per doubling of memory above 4 MiB".into(),

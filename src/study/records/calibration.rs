@@ -34,6 +34,17 @@ pub struct ModelRecord {
     pub regret_max: f64,
 }
 
+impl ModelRecord {
+    /// The model that areas can be put into: a constant for n_K and one for n_t.
+    pub const TWO: &'static str = "n_K, n_t";
+    /// That of the tree cost C: one for each of n_K, n_B and n_t.
+    pub const THREE: &'static str = "n_K, n_B, n_t";
+    /// The model whose terms are chosen by what they predict.
+    pub const CHOSEN: &'static str = "chosen terms";
+    /// All sizes of a scene are left out at a time.
+    pub const GROUP: &'static str = "group";
+}
+
 /// A fitted constant. A row of `times-constants.csv`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -52,6 +63,17 @@ pub struct ConstantRecord {
     pub inflation: Option<f64>,
     /// Share of the time that it explains, mean over rows.
     pub share: f64,
+}
+
+impl ConstantRecord {
+    /// The term of c_K.
+    pub const INNER: &'static str = "inner node (c_K)";
+    /// The term of c_B.
+    pub const LEAF: &'static str = "leaf (c_B)";
+    /// The term of c_t.
+    pub const TEST: &'static str = "object test (c_t)";
+    /// The term of a branch that the processor's predictor gets wrong.
+    pub const SURPRISE: &'static str = "branch mispredicted";
 }
 
 /// A step of the choice of terms. A row of `times-choice.csv`.

@@ -1,0 +1,31 @@
+//! The figures of this kind.
+
+mod counted;
+mod predicted;
+mod residuals;
+mod shares;
+
+use super::{CostVsWork, sets};
+use crate::report::legend::Key;
+
+pub use counted::counted;
+pub use predicted::predicted;
+pub use residuals::residuals;
+pub use shares::shares;
+
+/// The sets of rays of a run, for a legend.
+fn keys(run: &CostVsWork) -> Vec<(Key, String)> {
+    let sets = sets::of(run);
+    let key = |rays: &&str| (Key::Mark(sets::look(&sets, rays)), (*rays).to_owned());
+    sets.iter().map(key).collect()
+}
+
+/// What times share, for a caption.
+fn provenance(run: &CostVsWork, seed: u64) -> String {
+    let trees = super::work::trees(run);
+    let disturbed = run.predictions.iter().filter(|row| row.disturbed).count();
+    format!(
+        "{trees}, {} times ({disturbed} of them disturbed), seed {seed}.",
+        crate::report::number::grouped(run.predictions.len() as u64)
+    )
+}

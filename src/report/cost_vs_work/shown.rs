@@ -1,0 +1,45 @@
+//! How the numbers of this kind read in tables.
+
+use crate::report::number::digits_for;
+use crate::report::table::Cell;
+
+/// A name.
+pub fn text(text: &str) -> Cell {
+    Cell::Text(text.to_owned())
+}
+
+/// A number if it is known.
+pub fn known<T>(value: Option<T>, show: impl Fn(T) -> Cell) -> Cell {
+    value.map_or(Cell::Missing, show)
+}
+
+/// A ratio, to three digits.
+pub fn ratio(value: f64) -> Cell {
+    Cell::Value(value, digits_for(value, 3))
+}
+
+/// Kendall's tau.
+pub fn tau(value: f64) -> Cell {
+    Cell::Value(value, 3)
+}
+
+/// A share, in per cent.
+pub fn percent(share: f64) -> Cell {
+    let percent = 100.0 * share;
+    Cell::Value(percent, decimals(percent))
+}
+
+/// A ratio - 1, in per cent and with its sign.
+pub fn change(share: f64) -> Cell {
+    let percent = 100.0 * share;
+    Cell::Change(percent, decimals(percent))
+}
+
+/// One decimal; two digits of what is less than 1.
+fn decimals(percent: f64) -> usize {
+    if percent.abs() < 1.0 {
+        digits_for(percent, 2)
+    } else {
+        1
+    }
+}

@@ -1,0 +1,11 @@
+//! The tables of what was fitted to seconds. All of them differ from run to run, so all are named `times-*`.
+
+mod choice;
+mod constants;
+mod models;
+mod residuals;
+
+pub use choice::choice;
+pub use constants::{constants, interval, unidentified};
+pub use models::{models, order};
+pub use residuals::{Key, Residuals, residuals};
