@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use super::times::{Key, Residuals, interval, unidentified};
 use super::{CostVsWork, work};
-use crate::report::number::{counted, digits_for, fixed, signed};
+use crate::report::number::{counted, digits_for, fixed, grouped, signed};
 use crate::report::text::capitalised;
 use crate::study::records::{ConstantRecord, ModelRecord, PredictionRecord};
 
@@ -24,12 +24,13 @@ pub fn findings(run: &CostVsWork) -> String {
     if run.models.is_empty() {
         return format!("{NONE}\n");
     }
-    let disturbed = run.predictions.iter().filter(|row| row.disturbed).count();
+    let disturbed = run.predictions.iter().filter(|row| row.disturbed);
     let mut text = format!(
-        "By time: {}, {} of a set of rays in a tree; {disturbed} of them had even and odd rounds more than 3 % apart. Models are \
+        "By time: {}, {} of a set of rays in a tree; {} of them had even and odd rounds more than 3 % apart. Models are \
          judged on scenes whose sizes were all left out. Intervals: 95 %, from a bootstrap over groups of scenes.\n\n",
         work::trees(run),
-        counted(run.predictions.len() as u64, "time")
+        counted(run.predictions.len() as u64, "time"),
+        grouped(disturbed.count() as u64)
     );
     let lines = [
         constants_ratio(run),

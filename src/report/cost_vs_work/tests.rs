@@ -89,7 +89,7 @@ fn constants_have_the_digits_of_their_intervals() {
         assert!(text.contains(row), "{row}\n{text}");
     }
     assert!(text.contains(
-        "c_K and c_B are not separately identified: their variance inflation is 18 and 17, above 10."
+        "c_K and c_B are not separately identified: their variance inflation is 18.3 and 17.4, above 10."
     ));
     let mut apart = run.clone();
     apart.constants[2].inflation = Some(9.0);

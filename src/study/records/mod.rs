@@ -2,7 +2,8 @@
 //!
 //! One flat struct a file, full precision, unknown is `None` (an empty cell, never 0 or NaN). Everything that reads
 //! a finished run (tables, plots) reads these and nothing else. Only [`TimingRecord`] and [`PassTiming`], both
-//! rows of `timings.csv`, hold times, so every other file is byte-identical for any number of threads.
+//! rows of `timings.csv`, and the rows of files named `times-*` hold times, so every other file is byte-identical for any
+//! number of threads.
 
 mod assumptions;
 mod calibration;

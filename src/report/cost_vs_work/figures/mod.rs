@@ -7,6 +7,7 @@ mod shares;
 
 use super::{CostVsWork, sets};
 use crate::report::legend::Key;
+use crate::report::number::grouped;
 
 pub use counted::counted;
 pub use predicted::predicted;
@@ -23,9 +24,10 @@ fn keys(run: &CostVsWork) -> Vec<(Key, String)> {
 /// What times share, for a caption.
 fn provenance(run: &CostVsWork, seed: u64) -> String {
     let trees = super::work::trees(run);
-    let disturbed = run.predictions.iter().filter(|row| row.disturbed).count();
+    let disturbed = run.predictions.iter().filter(|row| row.disturbed);
     format!(
-        "{trees}, {} times ({disturbed} of them disturbed), seed {seed}.",
-        crate::report::number::grouped(run.predictions.len() as u64)
+        "{trees}, {} times ({} of them disturbed: halves of the rounds more than 3 % apart), seed {seed}.",
+        grouped(run.predictions.len() as u64),
+        grouped(disturbed.count() as u64)
     )
 }

@@ -87,14 +87,14 @@ fn panel(
     }
     let mut panel = Panel::new(pen, frame, x, y);
     let line = |factor: f64| [(low, low * factor), (high, high * factor)];
-    panel.band(&line(1.0 / BAND), &line(BAND), faded(SKY, 0.4));
+    panel.band(&line(1.0 / BAND), &line(BAND), faded(SKY, 0.7));
     let sets = sets::of(run);
     for row in &run.predictions {
         let look = sets::look(&sets, &row.rays);
         let at = (predicted(row), row.measured_ns);
-        panel.mark(at, look.marker, 1.2, faded(look.colour, 0.6));
+        panel.mark(at, look.marker, 1.1, faded(look.colour, 0.55));
     }
-    panel.line(&line(1.0), INK, 0.7);
+    panel.line(&line(1.0), INK, 0.5);
     panel.heading(name, frame.left, 4.0);
     let error = Residuals::of(&run.predictions, predicted);
     let error = error.map_or(String::new(), |found| {

@@ -8,6 +8,7 @@ use super::super::spread::median;
 use super::provenance;
 use crate::report::axis::Axis;
 use crate::report::figure::{Figure, LEFT, WIDTH};
+use crate::report::glyphs::SUB;
 use crate::report::legend::{Key, LEGEND_LEADING, legend, rows_of};
 use crate::report::number::{fixed, significant};
 use crate::report::palette::{GRID, INK, Look, faded};
@@ -109,6 +110,11 @@ fn ink_on(RGBAColor(r, g, b, alpha): RGBAColor) -> RGBAColor {
     }
 }
 
+/// The name of a term, `c_K` in it with a subscript.
+fn subscripted(name: &str) -> String {
+    name.replace('_', &SUB.to_string())
+}
+
 /// The parts of the bars.
 struct Parts<'r> {
     sets: Vec<&'r str>,
@@ -164,7 +170,7 @@ impl<'r> Parts<'r> {
         let others = self.others.then_some("other terms");
         let names = self.terms.iter().copied().chain(others).enumerate();
         names
-            .map(|(i, name)| (Key::Area(self.colour(i)), name.to_owned()))
+            .map(|(i, name)| (Key::Area(self.colour(i)), subscripted(name)))
             .collect()
     }
 }

@@ -41,8 +41,8 @@ pub fn unidentified(run: &CostVsWork) -> Option<String> {
         format!(
             "In the model {} c_K and c_B are not separately identified: their variance inflation is {} and {}, above {}.",
             ModelRecord::THREE,
-            fixed(inner, 0),
-            fixed(leaf, 0),
+            fixed(inner, 1),
+            fixed(leaf, 1),
             fixed(INFLATED, 0)
         )
     })
