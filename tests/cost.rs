@@ -11,7 +11,7 @@ use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
 use runs::{contents, folder, validate};
-use sahlab::study::records::{OrderRecord, ShareRecord, WorkRecord};
+use sahlab::study::records::{ShareRecord, TreeOrderRecord, WorkRecord};
 use serde::de::DeserializeOwned;
 
 const COST: &str = r#"kind = "cost-vs-work"
@@ -61,7 +61,7 @@ fn work_is_the_same_for_any_threads_and_after_a_stop() {
     for file in [
         "data/e/work.csv",
         "data/e/steps.csv",
-        "data/e/order.csv",
+        "data/e/tree-order.csv",
         "data/e/tables/work.tex",
         "data/e/tables/work-traced.md",
         "data/e/tables/work-traced-summary.csv",
@@ -128,7 +128,7 @@ fn rows_are_of_all_trees_and_sets() {
     };
     assert!(tests("lines") >= tests("lines:nearest"));
     // Of each scene and set: two stop rules, and both together.
-    let orders: Vec<OrderRecord> = rows(folder.path(), "order.csv");
+    let orders: Vec<TreeOrderRecord> = rows(folder.path(), "tree-order.csv");
     assert_eq!(orders.len(), 3 * 4 * 3);
     let all = orders.iter().filter(|row| row.stop == "all");
     assert!(all.clone().count() == 12 && all.clone().all(|row| (row.trees, row.pairs) == (6, 15)));

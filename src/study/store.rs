@@ -186,6 +186,7 @@ mod tests {
             "metrics.csv",
             "exact.csv",
             "steps.csv",
+            "tree-order.csv",
             "times-models.csv",
             "times-constants.csv",
             "times-choice.csv",

@@ -1,6 +1,6 @@
 //! How well areas put the trees of many scenes into the order of what is counted.
 
-use crate::study::records::OrderRecord;
+use crate::study::records::TreeOrderRecord;
 
 /// Orders of several scenes together.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,8 +21,8 @@ pub struct Agreement<'r> {
 
 impl<'r> Agreement<'r> {
     /// Of scenes whose regret is known; `None` without one.
-    pub fn of(orders: impl IntoIterator<Item = &'r OrderRecord>) -> Option<Self> {
-        let orders: Vec<&OrderRecord> = orders.into_iter().collect();
+    pub fn of(orders: impl IntoIterator<Item = &'r TreeOrderRecord>) -> Option<Self> {
+        let orders: Vec<&TreeOrderRecord> = orders.into_iter().collect();
         let regrets: Vec<(f64, &str)> = orders
             .iter()
             .filter_map(|order| Some((order.regret?, order.scene.as_str())))

@@ -16,7 +16,7 @@ const PUBLISHED: [(&str, f64, f64); 3] = [
 ];
 
 /// What is said where there are too few scenes.
-pub const NONE: &str = "No constants were fitted: that takes three scenes of different names, so that one can be left out and be \
+pub const NONE: &str = "No constants were fitted: that takes three scenes, so that one can be left out and be \
                         predicted from the others.";
 
 /// The findings, as Markdown.
@@ -27,7 +27,7 @@ pub fn findings(run: &CostVsWork) -> String {
     let disturbed = run.predictions.iter().filter(|row| row.disturbed);
     let mut text = format!(
         "By time: {}, {} of a set of rays in a tree; {} of them had even and odd rounds more than 3 % apart. Models are \
-         judged on scenes whose sizes were all left out. Intervals: 95 %, from a bootstrap over groups of scenes.\n\n",
+         judged on scenes that were left out. Intervals: 95 %, from a bootstrap over groups of scenes.\n\n",
         work::trees(run),
         counted(run.predictions.len() as u64, "time"),
         grouped(disturbed.count() as u64)
@@ -53,9 +53,9 @@ fn constant<'r>(run: &'r CostVsWork, model: &str, term: &str) -> Option<&'r Cons
     run.constants.iter().find(own)
 }
 
-/// The model of this name as judged on groups left out.
+/// The model of this name as judged on scenes left out.
 fn model<'r>(run: &'r CostVsWork, name: &str) -> Option<&'r ModelRecord> {
-    let own = |m: &&ModelRecord| m.model == name && m.left_out == ModelRecord::GROUP;
+    let own = |m: &&ModelRecord| m.model == name && m.left_out == ModelRecord::SCENE;
     run.models.iter().find(own)
 }
 

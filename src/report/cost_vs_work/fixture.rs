@@ -3,8 +3,8 @@
 use super::CostVsWork;
 use crate::report::{Content, Run, fixture};
 use crate::study::records::{
-    CellRecord, ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, OrderRecord,
-    PredictionRecord, ShareRecord, Summary, TimeVerdicts, Verdict, WorkRecord,
+    CellRecord, ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord,
+    ShareRecord, Summary, TimeVerdicts, TreeOrderRecord, Verdict, WorkRecord,
 };
 
 const SCENES: [&str; 3] = ["spd:a:1", "spd:a:2", "spd:b:1"];
@@ -100,8 +100,8 @@ fn work(cell: &CellRecord, rays: &str, ratio: f64, size: f64) -> WorkRecord {
     }
 }
 
-fn order(scene: &str, rays: &str, stop: &str, wrong: bool) -> OrderRecord {
-    OrderRecord {
+fn order(scene: &str, rays: &str, stop: &str, wrong: bool) -> TreeOrderRecord {
+    TreeOrderRecord {
         scene: scene.into(),
         rays: rays.into(),
         stop: stop.into(),
@@ -118,7 +118,7 @@ fn model(name: &str, error: f64, tau: f64) -> ModelRecord {
     ModelRecord {
         model: name.into(),
         constants: 2,
-        left_out: ModelRecord::GROUP.into(),
+        left_out: ModelRecord::SCENE.into(),
         rows: 12,
         error_median: error,
         error_mean: error,

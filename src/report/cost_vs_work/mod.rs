@@ -23,8 +23,8 @@ use super::read::{optional_rows, rows_of};
 use super::table::Table;
 use super::{Figure, ReportError, tables};
 use crate::study::records::{
-    CellRecord, ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, OrderRecord,
-    PredictionRecord, ShareRecord, Summary, TimeVerdicts, WorkRecord,
+    CellRecord, ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord,
+    ShareRecord, Summary, TimeVerdicts, TreeOrderRecord, WorkRecord,
 };
 use times::Key;
 
@@ -35,8 +35,8 @@ pub struct CostVsWork {
     pub cells: Vec<CellRecord>,
     /// `work.csv`.
     pub work: Vec<WorkRecord>,
-    /// `order.csv`.
-    pub orders: Vec<OrderRecord>,
+    /// `tree-order.csv`.
+    pub orders: Vec<TreeOrderRecord>,
     /// `times-models.csv`, and so on: empty where the times are not there.
     pub models: Vec<ModelRecord>,
     /// `times-constants.csv`.
@@ -74,7 +74,7 @@ impl CostVsWork {
         Ok(Self {
             cells: rows_of(&some("cells.csv"))?,
             work: rows_of(&some("work.csv"))?,
-            orders: rows_of(&some("order.csv"))?,
+            orders: rows_of(&some("tree-order.csv"))?,
             models: optional_rows(&some("times-models.csv"))?.unwrap_or_default(),
             constants: optional_rows(&some("times-constants.csv"))?.unwrap_or_default(),
             choices: optional_rows(&some("times-choice.csv"))?.unwrap_or_default(),

@@ -21,9 +21,9 @@ pub fn tables(run: &CostVsWork, width: usize) -> String {
     if run.models.is_empty() {
         return text + "\n" + &fold(NONE, width) + "\n";
     }
-    let judged = models(run, |m| m.left_out == ModelRecord::GROUP);
+    let judged = models(run, |m| m.left_out == ModelRecord::SCENE);
     let judged = without(judged, &["left_out", "constants", "pairs_right_pct"]);
-    let heading = "Time of a ray predicted from its counts, all sizes of a scene left out";
+    let heading = "Time of a ray predicted from its counts, its scene left out";
     text += &format!("\n{}", short(judged, heading, 1).to_text(width));
     let own = without(
         constants(run, |c| c.model == ModelRecord::CHOSEN),

@@ -7,7 +7,7 @@ use super::{CostVsWork, sets};
 use crate::report::number::counted;
 use crate::report::series::{constants, distinct};
 use crate::report::table::{Cell, Column, Table};
-use crate::study::records::{OrderRecord, WorkRecord};
+use crate::study::records::{TreeOrderRecord, WorkRecord};
 
 /// Rows of trees of all stop rules together.
 const ALL: &str = "all";
@@ -43,7 +43,7 @@ pub fn cost_ratios<'r>(rows: impl IntoIterator<Item = &'r WorkRecord>) -> Option
 
 /// How well areas order the trees of each scene under a set of rays, all stop rules together.
 pub fn agreement<'r>(run: &'r CostVsWork, rays: &str) -> Option<Agreement<'r>> {
-    let wanted = |row: &&OrderRecord| row.rays == rays && row.stop == ALL;
+    let wanted = |row: &&TreeOrderRecord| row.rays == rays && row.stop == ALL;
     Agreement::of(run.orders.iter().filter(wanted))
 }
 

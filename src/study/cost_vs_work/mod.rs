@@ -68,7 +68,7 @@ pub(super) fn run(
     store.write_rows("cells.csv", &records)?;
     let work: Vec<&WorkRecord> = measured.iter().flat_map(|tree| &tree.work).collect();
     store.write_rows("work.csv", &work)?;
-    store.write_rows("order.csv", order::orders(&work))?;
+    store.write_rows("tree-order.csv", order::orders(&work))?;
     store.write_rows("steps.csv", measured.iter().flat_map(|tree| &tree.steps))?;
     let estimates = hits::estimates(&records, asked.expect.family);
     let counts: Vec<&Estimate> = estimates.iter().filter(|e| e.name != "slope").collect();

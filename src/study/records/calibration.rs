@@ -41,6 +41,8 @@ impl ModelRecord {
     pub const THREE: &'static str = "n_K, n_B, n_t";
     /// The model whose terms are chosen by what they predict.
     pub const CHOSEN: &'static str = "chosen terms";
+    /// One scene is left out at a time.
+    pub const SCENE: &'static str = "scene";
     /// All sizes of a scene are left out at a time.
     pub const GROUP: &'static str = "group";
 }

@@ -146,7 +146,7 @@ pub struct StrategyChoiceRecord {
 }
 
 /// The order of a scene's trees under a set of rays: by the cost C that areas predict, and by the one counted. A row of
-/// `order.csv`.
+/// `tree-order.csv`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct TreeOrderRecord {

@@ -44,7 +44,7 @@ pub fn predicted(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let keys = keys(run);
     let rows = rows_of(WIDTH - 2.0 * LEFT, &keys);
     let caption = format!(
-        "A mark is a set of rays in a tree. Predicted with constants fitted without all sizes of the tree's scene: (a) of n{SUB}K \
+        "A mark is a set of rays in a tree. Predicted with constants fitted without the tree's scene: (a) of n{SUB}K \
          and n{SUB}t, put to what surface areas predict, the same for all rays; (b) the same, put to the counts of these rays; (c) \
          of terms chosen from many. Line: measured = predicted; shaded: within 10 % of it. Above each panel: median of \
          |predicted/measured − 1|. {}",

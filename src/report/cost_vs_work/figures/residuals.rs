@@ -37,7 +37,7 @@ pub fn residuals(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let keys = keys(run);
     let lines = rows_of(WIDTH - 2.0 * LEFT, &keys);
     let caption = format!(
-        "Predicted over measured time of a set of rays in a tree, with constants fitted without the group of scenes: a dot is a \
+        "Predicted over measured time of a set of rays in a tree, with constants fitted without its scene: a dot is a \
          tree, a bar the median of a set of rays. (a) Counted n{SUB}K and n{SUB}t, a constant each; (b) terms chosen from many. \
          Line: predicted = measured; shaded: within 10 % of it. {}",
         provenance(run, summary.seed)

@@ -20,8 +20,8 @@ pub fn choice(run: &CostVsWork) -> Table {
     }
     Table {
         caption: "How terms were added to n_K and n_t, one step after the other: of each step the candidate of the largest gain \
-                  and the next. Gain: by how much the mean relative error of groups of scenes left out falls, in percentage \
-                  points, mean over groups and its standard error. The first is taken where its gain is above one standard error; \
+                  and the next. Gain: by how much the mean relative error of scenes left out falls, in percentage \
+                  points, mean over scenes and its standard error. The first is taken where its gain is above one standard error; \
                   at the step where it is not, the choice ends."
             .to_owned(),
         columns: vec![

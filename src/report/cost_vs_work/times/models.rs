@@ -30,8 +30,8 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
     let rows = run.models.first().map_or(0, |m| m.rows);
     Table {
         caption: format!(
-            "The time of a ray predicted from its counts by models fitted without the scene they are judged on (left out: all \
-             sizes of the scene, or the scene alone; where the terms are chosen, the group had no say in that either). Error: \
+            "The time of a ray predicted from its counts by models fitted without the scene they are judged on (left out: the \
+             scene alone, or all its sizes; where the terms are chosen, what is left out had no say in that either). Error: \
              |predicted/measured − 1| of {rows} times of a set of rays in a tree: median, mean, 90 % quantile, largest. Where a \
              model has one constant, it is the scale of the ratio c_K:c_t that its name gives. {ORDER}"
         ),

@@ -114,7 +114,7 @@ pub fn residuals(run: &CostVsWork, key: Key) -> Table {
     Table {
         caption: format!(
             "Predicted over measured time of a ray, minus 1, in per cent, by {}: median, median of the absolute value (error), and \
-             the value furthest from 0, for chosen terms and for n_K and n_t alone, both fitted without the sizes of the scene at \
+             the value furthest from 0, for chosen terms and for n_K and n_t alone, both fitted without the scene at \
              hand. Last: where the chosen terms are worst.",
             match key {
                 Key::Rays => "set of rays",
