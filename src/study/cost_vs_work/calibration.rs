@@ -141,7 +141,7 @@ fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
     let by_group = fitter.left_out(&[], &fitter.groups, choose);
     models.extend(record(&model, GROUP, rows, &by_group));
 
-    let fitted = fitter.constants(&model, 0..fitter.groups.len());
+    let fitted = fitter.constants(&model, fitter.others(&[]));
     let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
     let shares = shares::by_set(&model, &fitted, rows, &sets);
 

@@ -52,8 +52,8 @@ pub enum Term {
     Corner,
     /// Tests that are repeated because objects straddle planes, as far as the share of repeated references tells.
     Repeated,
-    /// Inner nodes, the more the larger the tree: times log2 of its bytes.
-    Size,
+    /// Inner nodes, the more the further away memory must be: as [`FarMiss`](Self::FarMiss).
+    Far,
     /// Branches that the predictor gets wrong.
     Surprise,
     /// Cache lines not in 32 KiB.
@@ -91,6 +91,12 @@ const OBJECT: f64 = 72.0;
 /// Bytes up to which memory counts as near: a core's share of the last cache.
 const NEAR: f64 = (4 << 20) as f64;
 
+/// How far away the memory of a tree and its objects must be: how often it doubles [`NEAR`].
+fn doublings(cell: &CellRecord) -> f64 {
+    let memory = cell.bytes as f64 + OBJECT * cell.objects as f64;
+    libm::log2(memory / NEAR).max(0.0)
+}
+
 impl Term {
     /// Every term: the columns of the fit.
     pub const ALL: [Self; 20] = [
@@ -109,7 +115,7 @@ impl Term {
         Self::NearOf(Kind::Polygon),
         Self::Corner,
         Self::Repeated,
-        Self::Size,
+        Self::Far,
         Self::Surprise,
         Self::FirstMiss,
         Self::SecondMiss,
@@ -134,7 +140,7 @@ impl Term {
             Self::NearOf(kind) => format!("{} test whose box is crossed", kind.name()),
             Self::Corner => "corner of a polygon whose box is crossed".into(),
             Self::Repeated => "repeated test".into(),
-            Self::Size => "inner node, per doubling of the tree".into(),
+            Self::Far => "inner node, per doubling of memory above 4 MiB".into(),
             Self::Surprise => ConstantRecord::SURPRISE.into(),
             Self::FirstMiss => "cache line not in 32 KiB".into(),
             Self::SecondMiss => "cache line not in 1 MiB".into(),
@@ -170,14 +176,11 @@ impl Term {
                 let once = row.cell.objects as f64 / row.cell.references.max(1) as f64;
                 per_ray(tests) * (1.0 - once).max(0.0)
             }
-            Self::Size => per_ray(s.inner_visits) * libm::log2(row.cell.bytes as f64),
+            Self::Far => per_ray(s.inner_visits) * doublings(row.cell),
             Self::Surprise => per_ray(s.surprises),
             Self::FirstMiss => per_ray(s.first_misses),
             Self::SecondMiss => per_ray(s.second_misses),
-            Self::FarMiss => {
-                let memory = row.cell.bytes as f64 + OBJECT * row.cell.objects as f64;
-                per_ray(s.second_misses) * libm::log2(memory / NEAR).max(0.0)
-            }
+            Self::FarMiss => per_ray(s.second_misses) * doublings(row.cell),
         }
     }
 }
@@ -236,8 +239,8 @@ pub const CANDIDATES: [Candidate; 11] = [
         replaces: &[],
     },
     Candidate {
-        name: "size of the tree",
-        adds: &[Term::Size],
+        name: "inner nodes, by memory",
+        adds: &[Term::Far],
         replaces: &[],
     },
     Candidate {
