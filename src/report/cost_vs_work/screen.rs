@@ -9,7 +9,10 @@ use crate::study::records::ModelRecord;
 /// The tables that fit: work by set of rays, errors of the models, constants of the chosen one.
 pub fn tables(run: &CostVsWork, width: usize) -> String {
     let work = short(
-        work::summary(run),
+        without(
+            work::summary(run),
+            &["trees", "pairs_right_pct", "regret_scene"],
+        ),
         &format!(
             "{} counted on rays over the one predicted from surface areas, {}; order of a scene's trees by it",
             work::formula(run),

@@ -162,7 +162,7 @@ mod tests {
         // A megabyte does not fit into the first, nearly into the second.
         for _ in 0..2 {
             for line in 0..8192 {
-                caches.read(1 << 30 | line * 64, 4);
+                caches.read((1 << 30) | (line * 64), 4);
             }
         }
         assert_eq!(caches.first.misses, 2 + 2 * 8192);

@@ -25,6 +25,9 @@ const WIDEST_NAME: f64 = 100.0;
 /// The band reaches so far to either side of equality.
 const BAND: f64 = 1.1;
 
+/// A prediction of a row.
+type Predicted = fn(&PredictionRecord) -> f64;
+
 /// The figure; `None` where nothing was fitted.
 pub fn residuals(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let ratios = run
@@ -70,7 +73,7 @@ pub fn residuals(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
             right: left + wide,
             bottom,
         };
-        let panels: [(String, Frame, fn(&PredictionRecord) -> f64); 2] = [
+        let panels: [(String, Frame, Predicted); 2] = [
             (
                 format!("(a) counted n{SUB}K, n{SUB}t"),
                 frame(left),
@@ -113,7 +116,7 @@ fn panel<'p, 'a>(
     rows: &Rows,
     frame: Frame,
     [low, high]: [f64; 2],
-    predicted: fn(&PredictionRecord) -> f64,
+    predicted: Predicted,
 ) -> Panel<'p, 'a> {
     // Downwards, in points.
     let y = Axis {
