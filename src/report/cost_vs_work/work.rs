@@ -199,8 +199,8 @@ pub fn traced(run: &CostVsWork) -> Option<Table> {
                 &format!("{set}: counted/predicted"),
                 &format!("{set}_ratio"),
             ),
-            Column::right("tau", &format!("{set}_tau")),
-            Column::right("regret, %", &format!("{set}_regret_pct")),
+            Column::right(&format!("{set}: tau"), &format!("{set}_tau")),
+            Column::right(&format!("{set}: regret, %"), &format!("{set}_regret_pct")),
         ]);
     }
     let row = |scene: &&str| {
