@@ -96,6 +96,7 @@ impl Assumptions {
             ("bias", classes::table(self)),
             ("order", tables::order(self)),
             ("metrics", metrics::table(self)),
+            ("metrics-summary", metrics::summary(self)),
             ("verdicts", super::tables::verdicts(summary)),
         ];
         if !self.exact.is_empty() {

@@ -28,7 +28,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 8] = [
+const EXPERIMENTS: [(&str, &str); 10] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -36,6 +36,14 @@ const EXPERIMENTS: [(&str, &str); 8] = [
     (
         "validate-strategies",
         include_str!("../../../experiments/validate-strategies.toml"),
+    ),
+    (
+        "validate-cost",
+        include_str!("../../../experiments/validate-cost.toml"),
+    ),
+    (
+        "validate-assumptions",
+        include_str!("../../../experiments/validate-assumptions.toml"),
     ),
     ("figure3", include_str!("../../../experiments/figure3.toml")),
     (
@@ -58,7 +66,7 @@ const EXPERIMENTS: [(&str, &str); 8] = [
 ];
 
 /// So many of them, the first ones, are the default study.
-const DEFAULT: usize = 2;
+const DEFAULT: usize = 4;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();

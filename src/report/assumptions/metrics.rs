@@ -170,6 +170,48 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     })
 }
 
+/// The surface area metric and the one that suits, where that is another.
+pub fn summary(run: &Assumptions) -> Table {
+    let columns = vec![
+        Column::left("rays", "rays"),
+        Column::left("metric that suits", "metric"),
+        Column::right("error of areas, ×/÷", "error_area"),
+        Column::right("its error, ×/÷", "error"),
+        Column::right("τ of areas", "tau_area"),
+        Column::right("its τ", "tau"),
+        Column::right("regret of areas, %", "regret_area_pct"),
+        Column::right("its regret, %", "regret_pct"),
+    ];
+    let row = |set: &str| {
+        let metric = suited(run, set);
+        let (before, after) = (Fit::of(run, set, AREA), Fit::of(run, set, metric));
+        let regret = |fit: &Fit| value(arithmetic(&fit.regrets).map(|regret| 100.0 * regret), 1);
+        (metric != AREA).then(|| {
+            vec![
+                Cell::Text(set.to_owned()),
+                Cell::Text(metric.to_owned()),
+                value(before.error(), 2),
+                value(after.error(), 2),
+                value(arithmetic(&before.taus), 2),
+                value(arithmetic(&after.taus), 2),
+                regret(&before),
+                regret(&after),
+            ]
+        })
+    };
+    let sets = distinct(run.metrics.iter().map(|row| row.rays.as_str()));
+    Table {
+        caption: "Tree cost C of rays that break an assumption: the factor by which the surface area metric errs in the mean (exp \
+                  of the mean of |ln(counted/expected)| over all trees), and the metric whose rays begin and end most like these; \
+                  τ: Kendall's rank correlation of the strategies' costs expected and counted, mean over the scenes; regret: what \
+                  the tree expected to be cheapest costs above the cheapest, likewise."
+            .to_owned(),
+        columns,
+        keys: 2,
+        rows: sets.into_iter().filter_map(row).collect(),
+    }
+}
+
 /// Every metric and every set of rays.
 pub fn table(run: &Assumptions) -> Table {
     let columns = vec![

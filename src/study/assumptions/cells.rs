@@ -13,6 +13,7 @@ use crate::study::records::{
 use crate::study::{LineRule, Plan, Watcher};
 
 use super::asked::Assumptions;
+use super::mailbox;
 use super::metrics::{self, METRICS};
 use super::nodes::{Errors, Places};
 use super::one::One;
@@ -132,6 +133,8 @@ pub fn measure(
             };
             found.add(asked, &one);
             let rows = metrics::records(plan, rays, &visits, &expected);
+            found.metrics.extend(rows);
+            let rows = mailbox::records(scene, plan, &tree, rays);
             found.metrics.extend(rows);
             own.push(visits.costs);
         }

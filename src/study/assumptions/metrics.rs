@@ -12,7 +12,8 @@ use crate::tracer::RayKind;
 
 use super::visits::Visits;
 
-/// The metrics that are compared, the surface area's own first. Rays that remember what they tested are not counted.
+/// The metrics that are compared, the surface area's own first; rays that remember what they tested are
+/// [`mailbox`](super::mailbox)'s.
 pub const METRICS: [Metric; 5] = [
     Metric::Area,
     Metric::Occlusion,

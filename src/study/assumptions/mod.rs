@@ -5,6 +5,7 @@
 pub mod asked;
 pub mod cells;
 pub mod exact;
+pub mod mailbox;
 pub mod metrics;
 pub mod nodes;
 pub mod one;

@@ -290,6 +290,7 @@ fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
         return Vec::new();
     };
     let expect = asked.expect;
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let judge = |name: &str, value: f64, bound: Option<f64>, least: bool, what: String| {
         let bound = bound?;
         let held = if least {
@@ -297,14 +298,17 @@ fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
         } else {
             value <= bound
         };
-        let side = if least { "at least" } else { "at most" };
+        let wanted = if least {
+            format!("at least {bound}")
+        } else {
+            format!("at most {}", percent(bound))
+        };
         Some(Verdict {
             name: name.into(),
             held,
-            message: format!("{what}, {side} {bound} wanted"),
+            message: format!("{what}, {wanted} wanted"),
         })
     };
-    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let all = [
         judge(
             "time-error",
