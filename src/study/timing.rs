@@ -72,8 +72,10 @@ pub struct Timed<'a> {
     pub ask: Ask,
     /// The rays.
     pub casts: &'a [Cast],
-    /// Their chunks; a tree in which all of them take too long gets a random sample.
+    /// Their chunks; a tree in which all of them take too long gets a sample.
     pub chunks: Vec<Range<usize>>,
+    /// Chunks of a sample that were drawn together, as they follow each other.
+    pub together: usize,
 }
 
 impl<'a> Timed<'a> {
@@ -85,6 +87,7 @@ impl<'a> Timed<'a> {
             ask,
             casts,
             chunks: (0..casts.len()).step_by(CHUNK).map(chunk).collect(),
+            together: 1,
         }
     }
 }
@@ -238,21 +241,24 @@ impl Pass<'_, '_> {
         }
     }
 
-    /// Standard error of the scaled sum: a ratio estimate over chunks drawn without replacement.
+    /// Standard error of the scaled sum: a ratio estimate over what was drawn, without replacement.
     fn sampling_error(&self, least: &[f64], all: usize, timed: usize) -> f64 {
-        let drawn = least.len() as f64;
+        let together = self.timed.together;
+        let drawn = least.len().div_ceil(together) as f64;
         if timed == all || drawn < 2.0 {
             return 0.0;
         }
         let rate = least.iter().sum::<f64>() / timed as f64;
-        let residual = |(seconds, chunk): (&f64, &Range<usize>)| {
-            let off = seconds - rate * chunk.len() as f64;
+        let residual = |(seconds, chunks): (&[f64], &[Range<usize>])| {
+            let rays: usize = chunks.iter().map(ExactSizeIterator::len).sum();
+            let off = seconds.iter().sum::<f64>() - rate * rays as f64;
             off * off
         };
-        let squares: f64 = least.iter().zip(&self.chunks).map(residual).sum();
-        let chunks = self.timed.chunks.len() as f64;
-        let left_out = 1.0 - drawn / chunks;
-        chunks * (squares / (drawn - 1.0) * left_out / drawn).sqrt()
+        let draws = least.chunks(together).zip(self.chunks.chunks(together));
+        let squares: f64 = draws.map(residual).sum();
+        let population = self.timed.chunks.len().div_ceil(together) as f64;
+        let left_out = (1.0 - drawn / population).max(0.0);
+        population * (squares / (drawn - 1.0) * left_out / drawn).sqrt()
     }
 }
 
@@ -343,6 +349,7 @@ mod tests {
             ask: Ask::Nearest,
             casts: &[],
             chunks: (0..chunks).map(|i| i * CHUNK..(i + 1) * CHUNK).collect(),
+            together: 1,
         }
     }
 
@@ -362,6 +369,11 @@ mod tests {
         assert!(half.disturbed);
         // Chunks of 1 and 2 seconds, two of four: N sqrt(s^2 (1 - 1/2) / 2) with s^2 = 1/2.
         assert!((half.sampling_se_s - 4.0 * 0.125_f64.sqrt()).abs() < 1e-12);
+        // Drawn two by two: pairs of 3 and 7 seconds, two of four, s^2 = 8.
+        let mut pairs = set(8);
+        pairs.together = 2;
+        let half = row(&pairs, vec![1.0, 2.0, 3.0, 4.0], vec![9.0; 4]);
+        assert!((half.sampling_se_s - 4.0 * 2.0_f64.sqrt()).abs() < 1e-12);
         let whole = row(&set(2), vec![1.0, 2.0], vec![1.01, 2.02]);
         assert_eq!((whole.sampling_se_s, whole.disturbed), (0.0, false));
         let none = row(&set(0), vec![], vec![]);

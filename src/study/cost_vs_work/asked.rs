@@ -41,7 +41,7 @@ pub struct CostVsWork {
 pub struct Timing {
     /// Rays of each set that are timed, and whose steps are counted.
     pub rays: u64,
-    /// Visits and tests above which a tree is timed with fewer of them.
+    /// Visits and tests of a set in a scene's dearest tree above which the scene is timed with fewer of them.
     pub work: u64,
     /// Times that every chunk of rays is traced; even, so that there are two halves.
     pub rounds: u32,

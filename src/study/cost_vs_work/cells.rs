@@ -41,19 +41,26 @@ pub fn of_scene<'a>(plan: &Plan, asked: &CostVsWork, scene: &'a Scene) -> Vec<Ce
     let all = stops.flat_map(|&stop| asked.strategies.iter().map(move |&s| rules(stop, s)));
     let all: Vec<Rules> = all.collect();
     let mut plans = CellPlan::of_scene(scene, &all, plan.seed, asked.lines);
-    // What the rays depend on besides the boxes.
+    // What the rays depend on besides the boxes, and what is timed of them on the other trees.
     let seen = whole(scene);
     for plan in &mut plans {
         let identity = format!(
-            "{} {seen} {:?} {} {} {} {}",
-            plan.id, asked.rays, asked.number, asked.pixels, asked.timing.rays, asked.timing.work
+            "{} {seen} {:?} {} {} {} {} {:?} {:?}",
+            plan.id,
+            asked.rays,
+            asked.number,
+            asked.pixels,
+            asked.timing.rays,
+            asked.timing.work,
+            asked.strategies,
+            asked.stops
         );
         plan.id = digest(identity.as_bytes());
     }
     plans
 }
 
-/// How the passes are timed: no sampling but that of [`chunks`], no builds.
+/// How the passes are timed: on what [`chunks`] gives; no builds.
 fn rule(asked: &CostVsWork) -> timing::Timing {
     timing::Timing {
         rounds: asked.timing.rounds,
@@ -84,22 +91,24 @@ pub fn finished(
 /// Rays that follow each other in what is timed: so many of them share caches as in the whole set.
 const RUN: usize = 512;
 
-/// The chunks of a set that are timed in a tree in which a ray takes so much work: runs of rays, spread evenly over the set.
-fn chunks(asked: &CostVsWork, rays: usize, work_per_ray: f64) -> Vec<Range<usize>> {
-    let affordable = (asked.timing.work as f64 / work_per_ray.max(1.0)) as usize;
-    let wanted = (asked.timing.rays as usize)
-        .min(affordable)
-        .clamp(RUN, rays.max(RUN));
-    let all = rays.div_ceil(RUN);
-    let runs = wanted.div_ceil(RUN).min(all);
-    let run = |number: usize| {
-        let start = number * all / runs * RUN;
-        start..(start + RUN).min(rays)
-    };
+/// The chunks of a set that are timed: runs of rays in the middle of equal parts of the set, as many as the tree affords in
+/// which a ray takes the most work. The same in every tree of a scene.
+fn chunks(asked: &CostVsWork, rays: usize, most_work: f64) -> Vec<Range<usize>> {
     let cut = |run: Range<usize>| {
         let end = run.end;
         run.step_by(CHUNK)
             .map(move |start| start..(start + CHUNK).min(end))
+    };
+    let affordable = (asked.timing.work as f64 / most_work.max(1.0)) as usize;
+    let wanted = (asked.timing.rays as usize).min(affordable).max(RUN);
+    if wanted >= rays {
+        return cut(0..rays).collect();
+    }
+    let all = rays / RUN;
+    let runs = (wanted / RUN).min(all);
+    let run = |number: usize| {
+        let start = (2 * number + 1) * all / (2 * runs) * RUN;
+        start..start + RUN
     };
     (0..runs).map(run).flat_map(cut).collect()
 }
@@ -112,7 +121,10 @@ pub fn measure(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<Vec<Measured>, RunError> {
-    let Some(CellPlan { scene, .. }) = cells.first() else {
+    let Some(CellPlan {
+        scene, line_seed, ..
+    }) = cells.first()
+    else {
         return Ok(Vec::new());
     };
     watcher.begin(&format!("{} rays", scene.name));
@@ -121,36 +133,59 @@ pub fn measure(
         rays: asked.number,
         pixels: asked.pixels,
     };
-    let sets = gather(scene, &asked.rays, number, plan.seed).map_err(bug(scene.name.clone()))?;
-    let timed: Vec<Timed> = sets
-        .iter()
-        .map(|rays| Timed::all(rays.of.to_string(), rays.of.ask(), &rays.casts))
-        .collect();
-    let mut passes = Vec::new();
-    let mut measured = Vec::new();
+    let sets = gather(scene, &asked.rays, number, *line_seed).map_err(bug(scene.name.clone()))?;
     let mut trees: Vec<Tree> = Vec::new();
+    let mut counted = Vec::new();
     for cell in cells {
-        let CellPlan { id, rules, .. } = cell;
+        let rules = &cell.rules;
         let place = format!("{} {} {}", scene.name, rules.strategy, rules.stop);
         watcher.begin(&place);
         let (tree, _) = plant(scene, rules).map_err(bug(place.clone()))?;
-        let found = match store.finished(id) {
-            Some(found) => found,
-            None => {
-                let found = count(asked, cell, &tree, &sets).map_err(bug(place))?;
-                store.save(id, &found)?;
-                found
-            }
-        };
-        for ((timed, rays), row) in timed.iter().zip(&sets).zip(&found.work) {
-            let chunks = chunks(asked, rays.casts.len(), per_ray(row));
-            passes.push(Pass::new(timed, trees.len(), chunks));
-        }
-        measured.push(found);
+        counted.push(count(cell, &tree, &sets).map_err(bug(place))?);
         trees.push(tree);
         watcher.done(1);
     }
+
+    watcher.begin(&format!("{} steps", scene.name));
+    let most = |set: usize| {
+        let rows = counted.iter().map(|(_, work)| per_ray(&work[set]));
+        rows.fold(0.0, f64::max)
+    };
+    let timed = sets.iter().enumerate().map(|(number, rays)| {
+        let chunks = chunks(asked, rays.casts.len(), most(number));
+        (rays, chunks)
+    });
+    let timed: Vec<(&Rays, Vec<Range<usize>>)> = timed.collect();
+    let with_steps = |(tree, (record, work)): (&Tree, (CellRecord, Vec<WorkRecord>))| {
+        let sets = timed.par_iter().zip(&work);
+        let steps =
+            sets.map(|((rays, chunks), row)| steps::count(scene, tree, rays, chunks, named(row)));
+        Measured {
+            steps: steps.collect(),
+            record,
+            work,
+        }
+    };
+    let measured: Vec<Measured> = trees.iter().zip(counted).map(with_steps).collect();
+    for (cell, found) in cells.iter().zip(&measured) {
+        store.save(&cell.id, found)?;
+    }
+
     watcher.begin(&format!("{} times", scene.name));
+    let all: Vec<Timed> = sets
+        .iter()
+        .map(|rays| Timed {
+            together: RUN / CHUNK,
+            ..Timed::all(rays.of.to_string(), rays.of.ask(), &rays.casts)
+        })
+        .collect();
+    let of_tree = |tree: usize| {
+        let chunks = timed.iter().map(|(_, chunks)| chunks.clone());
+        all.iter()
+            .zip(chunks)
+            .map(move |(set, chunks)| Pass::new(set, tree, chunks))
+    };
+    let passes = (0..trees.len()).flat_map(of_tree).collect();
     let rows = trace_times(scene, &trees, passes, rule(asked), plan.seed, || {
         watcher.done(cells.len() as u64);
     });
@@ -163,36 +198,31 @@ fn per_ray(row: &WorkRecord) -> f64 {
     row.n_k_counted + row.n_b_counted + row.n_t_counted
 }
 
-/// Count lines and all sets of rays through a tree, and the steps of those that are timed.
+/// Count lines and all sets of rays through a tree.
 fn count(
-    asked: &CostVsWork,
     cell: &CellPlan,
     tree: &Tree,
     sets: &[Rays],
-) -> Result<Measured, String> {
+) -> Result<(CellRecord, Vec<WorkRecord>), String> {
     let prediction = predict(tree);
     let record = compare(cell, tree, &prediction, &())?.record;
     let objects = &cell.scene.objects;
-    let one = |rays: &Rays| {
-        let row = work::count(tree, objects, rays).record(cell, rays, cell.rules.cost, &prediction);
-        let chunks = chunks(asked, rays.casts.len(), per_ray(&row));
-        let named = StepRecord {
-            cell: row.cell.clone(),
-            scene: row.scene.clone(),
-            strategy: row.strategy.clone(),
-            stop: row.stop.clone(),
-            rays: row.rays.clone(),
-            ..StepRecord::default()
-        };
-        let steps = steps::count(cell.scene, tree, rays, &chunks, named);
-        (row, steps)
+    let row = |rays: &Rays| {
+        work::count(tree, objects, rays).record(cell, rays, cell.rules.cost, &prediction)
     };
-    let (work, steps) = sets.par_iter().map(one).unzip();
-    Ok(Measured {
-        record,
-        work,
-        steps,
-    })
+    Ok((record, sets.iter().map(row).collect()))
+}
+
+/// The names of a row of steps.
+fn named(row: &WorkRecord) -> StepRecord {
+    StepRecord {
+        cell: row.cell.clone(),
+        scene: row.scene.clone(),
+        strategy: row.strategy.clone(),
+        stop: row.stop.clone(),
+        rays: row.rays.clone(),
+        ..StepRecord::default()
+    }
 }
 
 /// Put the seconds of a scene's trees in place of older ones; rows of other runs stay.
@@ -249,9 +279,11 @@ mod tests {
             let all: usize = chunks.iter().map(ExactSizeIterator::len).sum();
             (chunks[0].start, chunks[chunks.len() - 1].end, all)
         };
-        assert_eq!(runs(4096, 10.0), (0, 2048 + 512, 1024));
-        assert_eq!(runs(4096, 1000.0), (0, 512, 512));
+        // Of eight runs the third and the seventh; of eight the fifth.
+        assert_eq!(runs(4096, 10.0), (1024, 3072 + 512, 1024));
+        assert_eq!(runs(4096, 1000.0), (2048, 2048 + 512, 512));
         assert_eq!(runs(100, 10.0), (0, 100, 100));
         assert_eq!(runs(700, 1.0), (0, 700, 700));
+        assert_eq!(runs(1100, 1000.0), (512, 1024, 512));
     }
 }
