@@ -101,6 +101,9 @@ enum Drawn<'a> {
 /// Where rays from surfaces begin, as a share of the box's diagonal.
 const OFFSET: f64 = 1e-9;
 
+/// The second side of a box that an eye sees, as a share of the longest: below it nearly all rays of the eye would miss.
+const THINNEST: f64 = 1e-3;
+
 /// Stream of the generator that belongs to no ray.
 const ONCE: u64 = u64::MAX;
 
@@ -108,7 +111,8 @@ impl<'a> SourceRays<'a> {
     /// The rays of a source in a scene.
     ///
     /// # Errors
-    /// If the objects have no surface to start from.
+    /// If the objects have no surface to start from or none of the box is beside it, or if the box is too thin to be seen
+    /// from the eye.
     pub fn new(source: Source, scene: &'a Scene, seed: u64) -> Result<Self, String> {
         let world = scene.world;
         let mut rng = generator(seed, Purpose::Sources);
@@ -118,9 +122,25 @@ impl<'a> SourceRays<'a> {
             Source::Beam => Drawn::Beam {
                 direction: isotropic(&mut rng),
             },
-            Source::Eye => Drawn::Eye {
-                origin: world.centre() + world.extent().length() * isotropic(&mut rng),
-            },
+            Source::Eye => {
+                let mut sides = world.extent().to_array();
+                sides.sort_by(f64::total_cmp);
+                if sides[1] < THINNEST * sides[2] {
+                    return Err(format!(
+                        "{}: its box is so thin that hardly a ray of an eye would hit it",
+                        scene.name
+                    ));
+                }
+                Drawn::Eye {
+                    origin: world.centre() + world.extent().length() * isotropic(&mut rng),
+                }
+            }
+            Source::Objects if world.volume() == 0.0 => {
+                return Err(format!(
+                    "{}: its box is flat, so no ray that leaves an object runs in it",
+                    scene.name
+                ));
+            }
             Source::Objects => Drawn::Objects(SurfacePoints::new(scene)?),
         };
         Ok(Self { world, seed, drawn })
@@ -128,63 +148,67 @@ impl<'a> SourceRays<'a> {
 
     /// Ray i.
     pub fn cast(&self, i: u64) -> Cast {
-        let cast = |line: Line, span: Span| Cast {
+        let mut rng = generator(self.seed, Purpose::Sources);
+        rng.set_stream(i);
+        let (line, span) = match &self.drawn {
+            Drawn::Law(law) => law.sample(&self.world, self.seed, i),
+            Drawn::Beam { direction } => (self.of_beam(*direction, &mut rng), Span::FULL),
+            Drawn::Eye { origin } => loop {
+                let line = self.of_eye(*origin, &mut rng);
+                if self.world.clip(&line, Span::FULL).is_some() {
+                    break (line, Span::FULL);
+                }
+            },
+            Drawn::Objects(points) => {
+                let (origin, normal) = points.draw(&mut rng);
+                let side = if uniform(&mut rng) < 0.5 {
+                    normal
+                } else {
+                    -normal
+                };
+                let line = Line::new(origin, cosine_around(side, &mut rng));
+                (line, Span::from(OFFSET * self.world.extent().length()))
+            }
+        };
+        Cast {
             origin: line.origin,
             direction: line.direction,
             span,
-        };
-        if let Drawn::Law(law) = self.drawn {
-            let (line, span) = law.sample(&self.world, self.seed, i);
-            return cast(line, span);
-        }
-        let mut rng = generator(self.seed, Purpose::Sources);
-        rng.set_stream(i);
-        if let Drawn::Objects(points) = &self.drawn {
-            let (origin, normal) = points.draw(&mut rng);
-            let side = if uniform(&mut rng) < 0.5 {
-                normal
-            } else {
-                -normal
-            };
-            return cast(
-                Line::new(origin, cosine_around(side, &mut rng)),
-                Span::from(OFFSET * self.world.extent().length()),
-            );
-        }
-        loop {
-            let line = self.outside(&mut rng);
-            if self.world.clip(&line, Span::FULL).is_some() {
-                return cast(line, Span::FULL);
-            }
         }
     }
 
-    /// A line from outside that may miss the box.
-    fn outside(&self, rng: &mut ChaCha8Rng) -> Line {
-        let centre = self.world.centre();
-        let radius = 0.5 * self.world.extent().length();
-        match &self.drawn {
-            Drawn::Beam { direction } => {
-                let (x, y) = direction.any_orthonormal_pair();
-                let (sine, cosine) = libm::sincos(TAU * uniform(rng));
-                let distance = radius * uniform(rng).sqrt();
-                Line::new(
-                    centre + distance * (cosine * x + sine * y) - 2.0 * radius * *direction,
-                    *direction,
-                )
-            }
-            Drawn::Eye { origin } => {
-                // The cone that holds a sphere seen from two radii away: sin = 1/2.
-                let axis = (centre - origin).normalize();
-                let least = 0.75_f64.sqrt();
-                let (x, y) = axis.any_orthonormal_pair();
-                let height = 1.0 - (1.0 - least) * uniform(rng);
-                let across = (1.0 - height * height).max(0.0).sqrt();
-                let (sine, cosine) = libm::sincos(TAU * uniform(rng));
-                Line::new(*origin, height * axis + across * (cosine * x + sine * y))
-            }
-            Drawn::Law(_) | Drawn::Objects(_) => unreachable!("drawn in `cast`"),
+    /// A line of this direction, uniform over the box's silhouette: through a uniform point of a face that looks towards the
+    /// light, taken by the area it shows.
+    fn of_beam(&self, direction: DVec3, rng: &mut ChaCha8Rng) -> Line {
+        let shown = self.world.face_areas() * direction.abs();
+        let mut rest = uniform(rng) * (shown.x + shown.y + shown.z);
+        // Rounding may leave a rest behind the last face that shows anything.
+        let last = (1..3).rev().find(|&k| shown[k] > 0.0).unwrap_or(0);
+        let mut axis = 0;
+        while axis < last && rest >= shown[axis] {
+            rest -= shown[axis];
+            axis += 1;
         }
+        let at = DVec3::from_array(std::array::from_fn(|_| uniform(rng)));
+        let mut point = (self.world.lo + at * self.world.extent()).min(self.world.hi);
+        point[axis] = if direction[axis] > 0.0 {
+            self.world.lo[axis]
+        } else {
+            self.world.hi[axis]
+        };
+        Line::new(point, direction)
+    }
+
+    /// A line from the eye that may miss the box: in the cone that holds its bounding sphere, seen from two radii away, so that
+    /// the sine of its half angle is 1/2.
+    fn of_eye(&self, origin: DVec3, rng: &mut ChaCha8Rng) -> Line {
+        let axis = (self.world.centre() - origin).normalize();
+        let least = 0.75_f64.sqrt();
+        let (x, y) = axis.any_orthonormal_pair();
+        let height = 1.0 - (1.0 - least) * uniform(rng);
+        let across = (1.0 - height * height).max(0.0).sqrt();
+        let (sine, cosine) = libm::sincos(TAU * uniform(rng));
+        Line::new(origin, height * axis + across * (cosine * x + sine * y))
     }
 }
 

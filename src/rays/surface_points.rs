@@ -1,6 +1,6 @@
 //! Uniform points of the surfaces of a scene's objects.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::TAU;
 
 use glam::DVec3;
 use rand::Rng;
@@ -27,7 +27,7 @@ impl<'a> SurfacePoints<'a> {
     pub fn new(scene: &'a Scene) -> Result<Self, String> {
         let mut sum = 0.0;
         let areas = (0..scene.objects.len() as u32).map(|i| {
-            sum += area(scene.objects.get(i));
+            sum += scene.objects.get(i).area();
             sum
         });
         let sums: Vec<f64> = areas.collect();
@@ -56,16 +56,6 @@ impl<'a> SurfacePoints<'a> {
         };
         let normal = self.scene.objects.normal(number, point);
         (point, normal.normalize_or(DVec3::Z))
-    }
-}
-
-/// Area of an object's surface, one side of it where it is open.
-fn area(object: Object) -> f64 {
-    match object {
-        Object::Triangle(triangle) => 0.5 * triangle.normal().length(),
-        Object::Sphere(sphere) => 4.0 * PI * sphere.radius * sphere.radius,
-        Object::Cone(cone) => cone.area(),
-        Object::Polygon(polygon) => polygon.area(),
     }
 }
 

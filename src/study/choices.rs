@@ -59,6 +59,7 @@ mod tests {
             rays: rays.into(),
             ask: "nearest".into(),
             cast: 10,
+            entered: 10,
             complete: true,
             hits: 0,
             inner_visits: 0,

@@ -22,9 +22,9 @@ use thiserror::Error;
 
 use crate::scene::Scene;
 
-use hits::HitsVsArea;
 pub use lines::LineRule;
 pub use plan::{Kind, Plan, PlanError};
+use ray_sets::RaysOf;
 use store::{EXPERIMENT, Store, StoreError};
 pub use watcher::Watcher;
 
@@ -80,26 +80,30 @@ pub fn run(
 
 /// Whether the scenes have what the kind of experiment needs; the error names the first that has not.
 pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
-    let traces = match &plan.kind {
-        Kind::HitsVsArea(_) | Kind::SplitCost(_) | Kind::CostVsWork(_) => false,
-        Kind::Strategies(_) | Kind::Termination(_) => true,
-        Kind::Assumptions(asked) => return asked.check_scenes(scenes),
+    let sets = |rays: &[RaysOf]| {
+        ray_sets::check_some(scenes, rays)?;
+        let check = |scene| ray_sets::check_scene(scene, rays);
+        scenes.iter().try_for_each(check)
     };
-    if let Kind::HitsVsArea(HitsVsArea {
-        work: Some(work), ..
-    }) = &plan.kind
-    {
-        scenes
-            .iter()
-            .try_for_each(|scene| ray_sets::check_scene(scene, &work.rays))?;
-    }
-    match scenes.iter().find(|scene| traces && scene.look.is_none()) {
-        Some(scene) => Err(format!(
-            "{}: has no camera and lights, but kind '{}' traces pictures; take a scene named spd: or an .nff file with a view",
-            scene.name,
-            plan.kind.name()
-        )),
-        None => Ok(()),
+    match &plan.kind {
+        Kind::HitsVsArea(asked) => asked.work.as_ref().map_or(Ok(()), |work| {
+            let check = |scene| ray_sets::check_scene(scene, &work.rays);
+            scenes.iter().try_for_each(check)
+        }),
+        Kind::CostVsWork(asked) => sets(&asked.rays),
+        Kind::Assumptions(asked) => sets(&asked.rays),
+        Kind::SplitCost(_) => Ok(()),
+        Kind::Strategies(_) | Kind::Termination(_) => {
+            match scenes.iter().find(|scene| scene.look.is_none()) {
+                Some(scene) => Err(format!(
+                    "{}: has no camera and lights, but kind '{}' traces pictures; take a scene named spd: or an .nff file \
+                     with a view",
+                    scene.name,
+                    plan.kind.name()
+                )),
+                None => Ok(()),
+            }
+        }
     }
 }
 

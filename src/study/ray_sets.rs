@@ -129,6 +129,22 @@ pub fn check_scene(scene: &Scene, sets: &[RaysOf]) -> Result<(), String> {
     })
 }
 
+/// Whether any of these sets has rays in any of the scenes; the error says why none has.
+pub fn check_some(scenes: &[Scene], sets: &[RaysOf]) -> Result<(), String> {
+    let pictures = scenes.iter().any(|scene| scene.look.is_some());
+    let some = sets
+        .iter()
+        .any(|set| pictures || !matches!(set, RaysOf::Traced(_)));
+    if some {
+        return Ok(());
+    }
+    Err(
+        "every set of rays is one of a picture, but no scene has a camera and lights; name a source of rays too, or a scene \
+         that has them, such as one named spd:"
+            .into(),
+    )
+}
+
 /// How many rays.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Number {

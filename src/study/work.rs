@@ -16,9 +16,11 @@ use super::records::WorkRecord;
 pub struct Counted {
     /// Rays that hit an object.
     pub hits: u64,
+    /// Rays that hit the root's box: these are what the metric tells of.
+    pub entered: u64,
     /// Their visits and tests.
     pub work: Work,
-    /// Of n_K, n_B and n_t of a ray.
+    /// Of n_K, n_B and n_t of a ray that hits the root's box.
     moments: ScoreMoments<3>,
 }
 
@@ -55,13 +57,18 @@ impl Counted {
     pub fn push(&mut self, hit: bool, work: Work) {
         self.hits += u64::from(hit);
         self.work += work;
-        self.moments
-            .push([work.inner, work.leaves, work.tests].map(|n| n as f64));
+        // Whoever hits the root's box visits at least the root.
+        if work.inner + work.leaves > 0 {
+            self.entered += 1;
+            self.moments
+                .push([work.inner, work.leaves, work.tests].map(|n| n as f64));
+        }
     }
 
     /// Add other rays.
     pub fn merge(&mut self, other: &Self) {
         self.hits += other.hits;
+        self.entered += other.entered;
         self.work += other.work;
         self.moments.merge(&other.moments);
     }
@@ -74,13 +81,13 @@ impl Counted {
         cost: CostModel,
         prediction: &Prediction,
     ) -> WorkRecord {
-        let cast = rays.casts.len() as f64;
         let Work {
             inner,
             leaves,
             tests,
         } = self.work;
-        let [n_k, n_b, n_t] = [inner, leaves, tests].map(|n| n as f64 / cast);
+        let entered = self.entered.max(1) as f64;
+        let [n_k, n_b, n_t] = [inner, leaves, tests].map(|n| n as f64 / entered);
         let se = |form: [f64; 3]| self.standard_error(form).filter(|_| !rays.complete);
         let &Prediction {
             n_k: k,
@@ -98,6 +105,7 @@ impl Counted {
             ask: rays.of.ask().to_string(),
             cast: rays.casts.len() as u64,
             complete: rays.complete,
+            entered: self.entered,
             hits: self.hits,
             inner_visits: inner,
             leaf_visits: leaves,

@@ -8,14 +8,14 @@ mod simulated;
 use glam::DVec3;
 use sahlab::cost::CostModel;
 use sahlab::geom::{Objects, Polygon, Span, Sphere, Triangle};
-use sahlab::kd::count::Counts;
-use sahlab::kd::expect::{Expected, Metric, Parts, branches};
+
+use sahlab::kd::expect::{Expected, Metric, Parts};
 use sahlab::kd::traverse::traverse_line;
-use sahlab::kd::{NodeKind, Stack, Strategy, Tree, Work, build};
+use sahlab::kd::{Strategy, Tree, Work, build};
 use sahlab::rays::Uniforms;
 use sahlab::scene::Scene;
 
-use simulated::{RAYS, Starts, counted, line, simulated};
+use simulated::{Starts, counted, simulated};
 
 fn tree_of(objects: &Objects, strategy: Strategy, stop: &str) -> Tree {
     let bounds = objects.bounds();
@@ -239,43 +239,4 @@ fn an_object_in_every_leaf_is_tested_once() {
     assert!((area.n_t - 8.0).abs() < 1e-12);
     let wanted = Expected { n_t: 1.0, ..area };
     assert_near(expected(Metric::Mailbox, &tree, &objects), wanted, 1e-12);
-}
-
-#[test]
-fn turns_that_most_lines_do_not_take() {
-    // At a cube's middle plane the three ways are equally frequent.
-    let objects = Objects {
-        spheres: vec![Sphere {
-            centre: DVec3::ZERO,
-            radius: 1.0,
-        }],
-        ..Objects::default()
-    };
-    let cut_once = tree_of(&objects, Strategy::SpatialMedian, "depth:1");
-    assert!((branches(&cut_once) - 2.0 / 3.0).abs() < 1e-15);
-    let scene = Scene::load("simple:soup:2000").unwrap();
-    let tree = tree_of(&scene.objects, Strategy::Sah, "objects:2:16");
-    let mut counts = Counts::new(&tree);
-    let mut stack = Stack::default();
-    for i in 0..RAYS {
-        traverse_line(
-            &tree,
-            &line(scene.world, i),
-            Span::FULL,
-            &mut stack,
-            &mut counts,
-        );
-    }
-    let unforeseen: u64 = (tree.nodes.iter().enumerate())
-        .map(|(i, node)| match node.kind() {
-            NodeKind::Inner { left, .. } => {
-                let [h, l, r] = [i, left as usize, left as usize + 1].map(|i| counts.hits[i]);
-                h - (h - r).max(h - l).max(l + r - h)
-            }
-            NodeKind::Leaf { .. } => 0,
-        })
-        .sum();
-    let found = unforeseen as f64 / RAYS as f64;
-    // Taking the most frequent way of the sample itself counts a little less.
-    assert!((found / branches(&tree) - 1.0).abs() < 0.03, "{found}");
 }

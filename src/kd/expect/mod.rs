@@ -4,7 +4,6 @@
 //! The metric's lines are isotropic, come from outside, never stop, and test an object once in every leaf. Each
 //! [`Metric`] gives up one or two of these.
 
-mod branches;
 mod chord;
 mod interior;
 mod interior_occlusion;
@@ -18,7 +17,6 @@ use std::fmt;
 use std::ops::{Add, Mul};
 use std::str::FromStr;
 
-pub use branches::branches;
 pub use parts::Parts;
 
 use super::{Tree, predict};

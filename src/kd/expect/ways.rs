@@ -24,11 +24,6 @@ impl Ways {
             both: p_left + p_right - 1.0,
         }
     }
-
-    /// The share of the most frequent way.
-    pub fn most(self) -> f64 {
-        self.left.max(self.right).max(self.both)
-    }
 }
 
 /// An inner node as a recursion meets it.

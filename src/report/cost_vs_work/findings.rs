@@ -133,13 +133,13 @@ fn judged(run: &CostVsWork, name: &str) -> Option<String> {
         ),
         "time-order" => format!(
             "Kendall's tau between predicted and measured times of a scene's trees {} in the mean, {} % of pairs in the right order",
-            fixed(m.tau, 3),
-            tenths(m.pairs_right)
+            fixed(m.tau.unwrap_or(f64::NAN), 3),
+            tenths(m.pairs_right.unwrap_or(f64::NAN))
         ),
         _ => format!(
             "the tree of least predicted time takes {} % more than the fastest in the mean, {} % at worst",
-            tenths(m.regret_mean),
-            tenths(m.regret_max)
+            tenths(m.regret_mean.unwrap_or(f64::NAN)),
+            tenths(m.regret_max.unwrap_or(f64::NAN))
         ),
     };
     let chosen = model(run, ModelRecord::CHOSEN)?;

@@ -124,10 +124,10 @@ fn model(name: &str, error: f64, tau: f64) -> ModelRecord {
         error_mean: error,
         error_p90: 2.0 * error,
         error_max: 3.0 * error,
-        tau,
-        pairs_right: 0.9,
-        regret_mean: 0.01,
-        regret_max: 0.05,
+        tau: Some(tau),
+        pairs_right: Some(0.9),
+        regret_mean: Some(0.01),
+        regret_max: Some(0.05),
     }
 }
 

@@ -3,8 +3,7 @@
 use serde::Deserialize;
 
 use crate::kd::{Ask, Rules, StopRule, Strategy};
-use crate::rays::{LineLaw, Source, SourceRays};
-use crate::scene::Scene;
+use crate::rays::{LineLaw, Source};
 use crate::study::Plan;
 use crate::study::hits::asked::{Figure, check_family};
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
@@ -54,7 +53,15 @@ impl Assumptions {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         check_strategies(&self.strategies)?;
+        wrong_unless(self.strategies.len() > 1, "strategies", || {
+            "strategies must name at least two, which the metric and the rays rank".into()
+        })?;
         RaysOf::check(&self.rays)?;
+        wrong_unless(
+            self.rays.iter().any(|&rays| is_control(rays)),
+            "rays",
+            || "rays must name 'lines', the control that keeps every assumption".into(),
+        )?;
         self.check_number()?;
         wrong_unless((1..=MOST_PIXELS).contains(&self.pixels), "pixels", || {
             format!(
@@ -91,20 +98,6 @@ impl Assumptions {
                 self.number
             )
         })
-    }
-
-    /// Whether the scenes can have the rays; the error names the first that cannot. Those of a picture are left out where a
-    /// scene has none.
-    pub fn check_scenes(&self, scenes: &[Scene]) -> Result<(), String> {
-        for scene in scenes {
-            for set in &self.rays {
-                if let RaysOf::Source(source, _) = set {
-                    SourceRays::new(*source, scene, 0)
-                        .map_err(|wrong| format!("{}: no rays '{set}': {wrong}", scene.name))?;
-                }
-            }
-        }
-        Ok(())
     }
 
     /// The rules of every tree over a scene.

@@ -19,7 +19,7 @@ use rayon::prelude::*;
 use crate::geom::{Aabb, Span};
 use crate::kd::Ask;
 use crate::rays::{LineLaw, Source, SurfaceLines};
-use crate::stats::{binomial_tail, normal_p};
+use crate::stats::binomial_tail;
 use crate::study::ray_sets::RaysOf;
 
 /// Rays for which theory knows more than the metric.
@@ -136,23 +136,23 @@ pub fn slab(root: &Aabb, node: &Aabb) -> Option<f64> {
     Some(1.0 - below * below - above * above)
 }
 
-/// Hits, misses and skewness of the expectation that a normal tail is good for even far out.
-const LEAST_EXPECTED: f64 = 200.0;
+/// Standard errors by which an expectation from lines may be off: that it is off by more is rarer than any level asked for,
+/// as long as its error is not skewed.
+const REACH: f64 = 6.0;
 const MOST_SKEWNESS: f64 = 0.1;
 
 /// The p-value of so many hits of `cast` rays; `None` where too few hits or misses are expected to tell, or too few lines
 /// make up the expectation.
 pub fn p_value(share: Share, hits: u64, cast: u64) -> Option<f64> {
-    let n = cast as f64;
+    let open = |p: f64| p > 0.0 && p < 1.0;
     if share.se == 0.0 {
-        let open = share.mean > 0.0 && share.mean < 1.0;
-        return open.then(|| binomial_tail(hits, cast, share.mean));
+        return open(share.mean).then(|| binomial_tail(hits, cast, share.mean));
     }
-    let variance = share.mean * (1.0 - share.mean) / n;
-    let enough =
-        n * share.mean.min(1.0 - share.mean) >= LEAST_EXPECTED && share.skewness <= MOST_SKEWNESS;
-    enough
-        .then(|| normal_p((hits as f64 / n - share.mean) / (variance + share.se * share.se).sqrt()))
+    // The tail at the expectation within reach that is nearest to the count: never too small.
+    let [lo, hi] = [-REACH, REACH].map(|reach| share.mean + reach * share.se);
+    let enough = open(lo) && open(hi) && share.skewness <= MOST_SKEWNESS;
+    let nearest = (hits as f64 / cast as f64).clamp(lo, hi);
+    enough.then(|| binomial_tail(hits, cast, nearest))
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! Does the metric rank the strategies' trees as the rays do?
 
-use crate::stats::{ScoreMoments, kendall_tau_b, normal_quantile};
+use crate::stats::{ScoreMoments, kendall_tau_b, simultaneous_quantile};
 use crate::study::LEVEL;
 use crate::study::records::OrderRecord;
 
@@ -21,7 +21,8 @@ impl Ranked<'_> {
 
     /// By how much the other tree is dearer, counted, where the rays tell: 0 where 0 lies in the interval of the difference.
     /// All rays there are have no interval.
-    fn dearer(&self, other: &Self, complete: bool) -> f64 {
+    /// The intervals of all `pairs` hold together.
+    fn dearer(&self, other: &Self, complete: bool, pairs: usize) -> f64 {
         let mut moments = ScoreMoments::<1>::default();
         for (mine, theirs) in self.costs.iter().zip(other.costs) {
             moments.push([theirs - mine]);
@@ -32,7 +33,7 @@ impl Ranked<'_> {
         let reach = if complete {
             0.0
         } else {
-            normal_quantile(LEVEL) * se
+            simultaneous_quantile(LEVEL, pairs) * se
         };
         if difference.abs() <= reach {
             0.0
@@ -52,10 +53,12 @@ pub fn order(
 ) -> Option<OrderRecord> {
     let predicted: Vec<f64> = trees.iter().map(|t| t.predicted).collect();
     let counted: Vec<f64> = trees.iter().map(Ranked::counted).collect();
+    let pairs = (trees.len() * trees.len().saturating_sub(1) / 2).max(1);
     let [mut right, mut wrong, mut tied] = [0, 0, 0];
     for (i, tree) in trees.iter().enumerate() {
         for other in &trees[i + 1..] {
-            let agreement = (other.predicted - tree.predicted) * tree.dearer(other, complete);
+            let agreement =
+                (other.predicted - tree.predicted) * tree.dearer(other, complete, pairs);
             let kind = if agreement > 0.0 {
                 &mut right
             } else if agreement < 0.0 {

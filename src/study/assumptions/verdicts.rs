@@ -80,8 +80,8 @@ fn agrees(family: f64, exact: &[&ExactRecord]) -> Option<Verdict> {
         held: corrected >= family,
         message: format!(
             "rays that begin inside, held against weighted isotropic lines and closed forms on {nodes} nodes of {} trees: \
-             smallest p-value, times the nodes, {corrected:.3} ({} of {}, strategy {}, node {}: {:.5} counted, {:.5} ± {:.5} \
-             expected), at least {family} wanted",
+             smallest p-value, times the nodes, {corrected:.3} ({} of {}, strategy {}, node {}: {:.5} counted, {:.5} \
+             expected with a standard error of {:.5} besides that of the count), at least {family} wanted",
             trees(exact),
             worst.rays,
             worst.scene,

@@ -21,6 +21,12 @@ use super::terms::{Row, Term};
 /// Fewest scenes for terms to be chosen without one and judged on it.
 const FEWEST_SCENES: usize = 3;
 
+/// Fewest groups of scenes for draws of them to tell anything.
+const FEWEST_GROUPS: usize = 3;
+
+/// Share of disturbed times above which times are not judged.
+const MOST_DISTURBED: f64 = 0.25;
+
 /// Level of the intervals of constants.
 const LEVEL: f64 = 0.95;
 
@@ -86,7 +92,7 @@ pub fn write(
     store.write_rows("times-order.csv", &found.orders)?;
     store.write_rows("times-shares.csv", &found.shares)?;
     let verdicts = TimeVerdicts {
-        verdicts: verdicts(asked, &found.models),
+        verdicts: verdicts(asked, &found.models, &rows),
     };
     let mut json = serde_json::to_vec_pretty(&verdicts).expect("verdicts are plain data");
     json.push(b'\n');
@@ -122,11 +128,15 @@ fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
     let scenes = fitter.single_scenes();
     let mut models = Vec::new();
     let mut two = Vec::new();
+    // Of a single group nothing would be left to fit.
+    let groups = Some(&fitter.groups).filter(|groups| groups.len() > 1);
     for model in given() {
         let by_scene = fitter.left_out(&[], &scenes, |_| model.clone());
-        let by_group = fitter.left_out(&[], &fitter.groups, |_| model.clone());
         models.extend(record(&model, SCENE, rows, &by_scene));
-        models.extend(record(&model, GROUP, rows, &by_group));
+        if let Some(groups) = groups {
+            let by_group = fitter.left_out(&[], groups, |_| model.clone());
+            models.extend(record(&model, GROUP, rows, &by_group));
+        }
         if model.name == TWO {
             two = by_scene;
         }
@@ -138,10 +148,12 @@ fn calibrate(plan: &Plan, asked: &CostVsWork, fitter: &Fitter) -> Calibrated {
     let choose = |out: &[usize]| choose(fitter, out, |_| ());
     let chosen = fitter.left_out(&[], &scenes, choose);
     models.extend(record(&model, SCENE, rows, &chosen));
-    let by_group = fitter.left_out(&[], &fitter.groups, choose);
-    models.extend(record(&model, GROUP, rows, &by_group));
+    if let Some(groups) = groups {
+        let by_group = fitter.left_out(&[], groups, choose);
+        models.extend(record(&model, GROUP, rows, &by_group));
+    }
 
-    let fitted = fitter.constants(&model, fitter.others(&[]));
+    let fitted = fitter.constants_without(&model, &[]);
     let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
     let shares = shares::by_set(&model, &fitted, rows, &sets);
 
@@ -188,10 +200,10 @@ fn record(model: &Model, left_out: &str, rows: &[Row], predicted: &[f64]) -> Opt
         error_mean: errors.mean,
         error_p90: errors.p90,
         error_max: errors.max,
-        tau: orders.tau,
-        pairs_right: orders.pairs_right,
-        regret_mean: orders.regret_mean,
-        regret_max: orders.regret_max,
+        tau: orders.ranked(orders.tau),
+        pairs_right: orders.ranked(orders.pairs_right),
+        regret_mean: orders.ranked(orders.regret_mean),
+        regret_max: orders.ranked(orders.regret_max),
     })
 }
 
@@ -202,7 +214,7 @@ fn constants(
     fitter: &Fitter,
     model: &Model,
 ) -> Vec<ConstantRecord> {
-    let all = fitter.constants(model, fitter.others(&[]));
+    let all = fitter.constants_without(model, &[]);
     let draws = asked.calibration.draws as usize;
     // Sizes of one scene are drawn together: they are much alike.
     let groups = &fitter.groups;
@@ -210,14 +222,15 @@ fn constants(
         let scenes = drawn.iter().flat_map(|&group| &groups[group]);
         Some(fitter.constants(model, scenes.copied()))
     });
+    let interval = |number: usize| intervals[number].filter(|_| groups.len() >= FEWEST_GROUPS);
     let inflation = fitter.inflation(model);
     let shares = shares::mean_shares(model, &all, fitter.rows.iter());
     let constant = |number: usize| ConstantRecord {
         model: model.name.clone(),
         term: model.terms[number].name(),
         ns: all[number],
-        lo: intervals[number].map(|(lo, _)| lo),
-        hi: intervals[number].map(|(_, hi)| hi),
+        lo: interval(number).map(|(lo, _)| lo),
+        hi: interval(number).map(|(_, hi)| hi),
         inflation: inflation[number],
         share: shares[number],
     };
@@ -230,11 +243,12 @@ fn areas(fitter: &Fitter) -> Vec<f64> {
     let model = Model::of(TWO, &[Term::Inner, Term::Test]);
     let mut predicted = vec![0.0; fitter.rows.len()];
     for (scene, numbers) in fitter.scenes.iter().enumerate() {
-        let constants = fitter.constants(&model, fitter.others(&[scene]));
+        let constants = fitter.constants_without(&model, &[scene]);
         for &number in numbers {
             let work = fitter.rows[number].work;
+            let enters = work.entered as f64 / work.cast as f64;
             predicted[number] =
-                constants[0] * work.n_k_predicted + constants[1] * work.n_t_predicted;
+                enters * (constants[0] * work.n_k_predicted + constants[1] * work.n_t_predicted);
         }
     }
     predicted
@@ -283,68 +297,84 @@ fn orders(
     records
 }
 
-/// Whether scenes left out are predicted as well as was expected.
-fn verdicts(asked: &CostVsWork, models: &[ModelRecord]) -> Vec<Verdict> {
-    let own = |row: &&ModelRecord| row.model == CHOSEN && row.left_out == SCENE;
-    let Some(found) = models.iter().find(own) else {
-        return Vec::new();
-    };
+/// Whether scenes left out are predicted as well as was expected. What was expected and cannot be judged is not held.
+fn verdicts(asked: &CostVsWork, models: &[ModelRecord], rows: &[Row]) -> Vec<Verdict> {
     let expect = asked.expect;
+    let wanted = [
+        ("time-error", expect.error_median, false),
+        ("time-order", expect.tau, true),
+        ("time-regret", expect.regret, false),
+    ];
+    let own = |row: &&ModelRecord| row.model == CHOSEN && row.left_out == SCENE;
+    let found = models.iter().find(own);
+    let disturbed = rows.iter().filter(|row| row.disturbed).count();
+    let too_many = disturbed as f64 > MOST_DISTURBED * rows.len() as f64;
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
-    let judge = |name: &str, value: f64, bound: Option<f64>, least: bool, what: String| {
+    let judge = |(name, bound, least): (&str, Option<f64>, bool)| {
         let bound = bound?;
-        let held = if least {
-            value >= bound
-        } else {
-            value <= bound
-        };
-        let wanted = if least {
-            format!("at least {bound}")
-        } else {
-            format!("at most {}", percent(bound))
+        let value = found.and_then(|found| match name {
+            "time-error" => Some(found.error_median),
+            "time-order" => found.tau,
+            _ => found.regret_mean,
+        });
+        let (held, message) = match (found.zip(value), too_many) {
+            (None, _) => (
+                false,
+                format!(
+                    "not judged: constants take {FEWEST_SCENES} scenes, an order takes two trees of each"
+                ),
+            ),
+            (_, true) => (
+                false,
+                format!(
+                    "not judged: the halves of {disturbed} of {} times are more than 3 % apart; measure on a quieter machine",
+                    rows.len()
+                ),
+            ),
+            (Some((found, value)), false) => {
+                let bounds = if least {
+                    format!("at least {bound}")
+                } else {
+                    format!("at most {}", percent(bound))
+                };
+                let held = if least {
+                    value >= bound
+                } else {
+                    value <= bound
+                };
+                (held, format!("{}, {bounds} wanted", sentence(name, found)))
+            }
         };
         Some(Verdict {
             name: name.into(),
             held,
-            message: format!("{what}, {wanted} wanted"),
+            message,
         })
     };
-    let all = [
-        judge(
-            "time-error",
-            found.error_median,
-            expect.error_median,
-            false,
-            format!(
-                "times of scenes left out, predicted from chosen terms: median relative error {}, mean {}, worst {}",
-                percent(found.error_median),
-                percent(found.error_mean),
-                percent(found.error_max)
-            ),
+    wanted.into_iter().filter_map(judge).collect()
+}
+
+/// What a verdict says of the chosen terms.
+fn sentence(name: &str, found: &ModelRecord) -> String {
+    let percent = |share: f64| format!("{:.1} %", 100.0 * share);
+    let some = |share: Option<f64>| share.map_or_else(|| "unknown".into(), percent);
+    match name {
+        "time-error" => format!(
+            "times of scenes left out (other sizes of them kept), predicted from chosen terms: median relative error {}, mean \
+             {}, worst {}",
+            percent(found.error_median),
+            percent(found.error_mean),
+            percent(found.error_max)
         ),
-        judge(
-            "time-order",
-            found.tau,
-            expect.tau,
-            true,
-            format!(
-                "Kendall's tau between predicted and measured times of a scene's trees: mean {:.3}; {} of pairs in the right \
-                 order",
-                found.tau,
-                percent(found.pairs_right)
-            ),
+        "time-order" => format!(
+            "Kendall's tau between predicted and measured times of a scene's trees: mean {:.3}; {} of pairs in the right order",
+            found.tau.unwrap_or_default(),
+            some(found.pairs_right)
         ),
-        judge(
-            "time-regret",
-            found.regret_mean,
-            expect.regret,
-            false,
-            format!(
-                "the tree of least predicted time takes {} more than the fastest in the mean, {} at worst",
-                percent(found.regret_mean),
-                percent(found.regret_max)
-            ),
+        _ => format!(
+            "the tree of least predicted time takes {} more than the fastest in the mean, {} at worst",
+            some(found.regret_mean),
+            some(found.regret_max)
         ),
-    ];
-    all.into_iter().flatten().collect()
+    }
 }

@@ -29,8 +29,8 @@ pub fn choose(fitter: &Fitter, out: &[usize], mut told: impl FnMut(ChoiceRecord)
                 (with, after, gain)
             })
             .collect();
-        let best = (0..tried.len()).max_by(|&a, &b| tried[a].2[0].total_cmp(&tried[b].2[0]));
-        let taken = best.filter(|&best| tried[best].2[0] > tried[best].2[1]);
+        let gains = (0..tried.len()).filter(|&one| tried[one].2[0] > tried[one].2[1]);
+        let taken = gains.max_by(|&a, &b| tried[a].2[0].total_cmp(&tried[b].2[0]));
         for (number, (candidate, (_, after, [gain, se]))) in left.iter().zip(&tried).enumerate() {
             told(ChoiceRecord {
                 step,

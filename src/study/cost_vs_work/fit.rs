@@ -32,6 +32,27 @@ impl Model {
         }
     }
 
+    /// The columns of its terms.
+    fn columns(&self) -> Vec<usize> {
+        self.terms.iter().map(|term| term.column()).collect()
+    }
+
+    /// Its constants from sums over all terms.
+    fn fitted(&self, all: &Normal) -> Vec<f64> {
+        self.solved(&all.select(&self.columns()))
+    }
+
+    /// Its constants from sums over its own terms.
+    fn solved(&self, own: &Normal) -> Vec<f64> {
+        match &self.ratio {
+            None => own.solve(),
+            Some(ratio) => {
+                let scale = own.scale(ratio);
+                ratio.iter().map(|c| scale * c).collect()
+            }
+        }
+    }
+
     /// Constants that are fitted.
     pub fn constants(&self) -> usize {
         self.ratio.as_ref().map_or(self.terms.len(), |_| 1)
@@ -48,6 +69,8 @@ pub struct Fitter<'a> {
     pub groups: Vec<Vec<usize>>,
     /// The normal equations of all terms, of each scene.
     sums: Vec<Normal>,
+    /// And of all scenes.
+    all: Normal,
 }
 
 /// Numbers of items of the same name, in the order of names.
@@ -72,12 +95,15 @@ impl<'a> Fitter<'a> {
             }
             sum
         });
-        let sums = sums.collect();
+        let sums: Vec<Normal> = sums.collect();
+        let mut all = Normal::new(Term::ALL.len());
+        sums.iter().for_each(|sum| all.merge(sum));
         Self {
             rows,
             scenes,
             groups,
             sums,
+            all,
         }
     }
 
@@ -86,26 +112,23 @@ impl<'a> Fitter<'a> {
         (0..self.scenes.len()).map(|scene| vec![scene]).collect()
     }
 
-    /// The normal equations of a model over these scenes, one that is named twice counting twice.
-    fn sum(&self, model: &Model, scenes: impl IntoIterator<Item = usize>) -> Normal {
-        let columns: Vec<usize> = model.terms.iter().map(|term| term.column()).collect();
-        let mut sum = Normal::new(columns.len());
-        for scene in scenes {
-            sum.merge(&self.sums[scene].select(&columns));
-        }
-        sum
-    }
-
     /// The constants of a model fitted to these scenes, one that is named twice counting twice.
     pub fn constants(&self, model: &Model, scenes: impl IntoIterator<Item = usize>) -> Vec<f64> {
-        let sum = self.sum(model, scenes);
-        match &model.ratio {
-            None => sum.solve(),
-            Some(ratio) => {
-                let scale = sum.scale(ratio);
-                ratio.iter().map(|c| scale * c).collect()
-            }
-        }
+        let mut sum = Normal::new(Term::ALL.len());
+        scenes
+            .into_iter()
+            .for_each(|scene| sum.merge(&self.sums[scene]));
+        model.fitted(&sum)
+    }
+
+    /// The constants of a model fitted to all scenes but these.
+    pub fn constants_without(&self, model: &Model, out: &[usize]) -> Vec<f64> {
+        let sum = out
+            .iter()
+            .fold(self.all.select(&model.columns()), |sum, &scene| {
+                sum.without(&self.sums[scene].select(&model.columns()))
+            });
+        model.solved(&sum)
     }
 
     /// All scenes but some.
@@ -115,7 +138,7 @@ impl<'a> Fitter<'a> {
 
     /// Variance inflation of each constant, from all rows.
     pub fn inflation(&self, model: &Model) -> Vec<Option<f64>> {
-        self.sum(model, self.others(&[])).variance_inflation()
+        self.all.select(&model.columns()).variance_inflation()
     }
 
     /// Nanoseconds of the rows of these folds of scenes, each predicted by a model fitted without its fold and without the
@@ -129,7 +152,7 @@ impl<'a> Fitter<'a> {
         let fold = |fold: &Vec<usize>| {
             let left_out = [out, fold].concat();
             let model = choose(&left_out);
-            let constants = self.constants(&model, self.others(&left_out));
+            let constants = self.constants_without(&model, &left_out);
             let numbers = fold.iter().flat_map(|&scene| &self.scenes[scene]);
             let predict = |&number: &usize| (number, time(&model, &constants, &self.rows[number]));
             numbers.map(predict).collect::<Vec<_>>()
@@ -195,6 +218,11 @@ pub struct Orders {
 }
 
 impl Orders {
+    /// A figure of it, where there was anything to rank.
+    pub fn ranked(&self, figure: f64) -> Option<f64> {
+        (self.scenes > 0).then_some(figure)
+    }
+
     /// Of the rows that are wanted, by a cost.
     pub fn of(rows: &[Row], cost: &[f64], wanted: impl Fn(&Row) -> bool) -> Self {
         let mut trees: BTreeMap<(&str, &str), Vec<(f64, f64)>> = BTreeMap::new();
@@ -211,7 +239,7 @@ impl Orders {
             };
             let own = crate::stats::concordant(&costs, &times);
             right += own.right;
-            pairs += own.right + own.wrong + own.tied;
+            pairs += own.right + own.wrong;
             all.scenes += 1;
             all.tau += tau;
             let taken = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
@@ -298,6 +326,10 @@ pub mod tests {
         assert_eq!((fitter.scenes.len(), fitter.groups.len()), (6, 3));
         let model = Model::of("true", &TRUE);
         let constants = fitter.constants(&model, [0, 3, 5]);
+        let without = fitter.constants_without(&model, &[1, 2, 4]);
+        for (with, without) in constants.iter().zip(without) {
+            assert!((with - without).abs() < 1e-12 * with);
+        }
         for (found, wanted) in constants.iter().zip([3.0, 7.0, 11.0]) {
             assert!((found - wanted).abs() < 1e-9, "{constants:?}");
         }

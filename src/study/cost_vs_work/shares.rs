@@ -35,6 +35,9 @@ pub fn by_set<'r>(
     let mut records = Vec::new();
     for rays in sets {
         let own = rows.iter().filter(|row| row.work.rays == *rays);
+        if own.clone().next().is_none() {
+            continue;
+        }
         let shares = mean_shares(model, constants, own);
         let named = model.terms.iter().zip(shares);
         records.extend(named.map(|(term, share)| ShareRecord {

@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// One set of rays in one tree: how far the metric errs. A row of `bias.csv`.
 ///
-/// The metric tells what rays that hit the root's box do, so every rate here is per ray that does (`entered`). Ratios are
+/// The metric tells what rays that hit the root's box do, so every ratio here is per ray that does (`entered`). Ratios are
 /// counted over predicted: 1 where the metric is right, empty where nothing is predicted or no ray enters.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -19,9 +19,9 @@ pub struct BiasRecord {
     pub rays: String,
     /// Whether the lines of its rays are uniform in origin and direction, as the metric assumes.
     pub uniform: bool,
-    /// Share of the rays that begin inside the root's box, where the metric has them come from outside.
+    /// Share of all rays cast that begin inside the root's box, where the metric has them come from outside.
     pub inside: f64,
-    /// Share of the rays that an object stops, where the metric has none stop.
+    /// Share of all rays cast that an object stops, where the metric has none stop.
     pub stopped: f64,
     /// Rays that hit the root's box.
     pub entered: u64,

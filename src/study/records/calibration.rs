@@ -25,13 +25,13 @@ pub struct ModelRecord {
     /// Its largest value.
     pub error_max: f64,
     /// Mean over scenes and sets of rays of Kendall's tau-b between predicted and measured time of the trees.
-    pub tau: f64,
+    pub tau: Option<f64>,
     /// Share of pairs of trees of a scene that are put into the right order.
-    pub pairs_right: f64,
+    pub pairs_right: Option<f64>,
     /// Mean over scenes and sets of T(tree of least predicted time)/T(fastest tree) - 1.
-    pub regret_mean: f64,
+    pub regret_mean: Option<f64>,
     /// Its largest value.
-    pub regret_max: f64,
+    pub regret_max: Option<f64>,
 }
 
 impl ModelRecord {
@@ -94,7 +94,7 @@ pub struct ChoiceRecord {
     pub gain: f64,
     /// Its standard error.
     pub gain_se: f64,
-    /// Whether it was taken: the largest gain of its step, and above one standard error.
+    /// Whether it was taken: the largest of the gains of its step that are above one standard error.
     pub taken: bool,
 }
 

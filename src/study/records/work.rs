@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 /// What one set of rays did in one tree, beside what surface areas predict of isotropic lines. A row of `work.csv`.
 ///
-/// Rates are per ray. A standard error is empty where the set is complete, so that there is none: all rays of a picture, all
+/// Rates are per ray that hits the scene's box, as the predictions are. A standard error is empty where the set is complete, so that there is none: all rays of a picture, all
 /// rays of a file.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -25,6 +25,8 @@ pub struct WorkRecord {
     pub ask: String,
     /// Rays of the set.
     pub cast: u64,
+    /// Rays that hit the scene's box.
+    pub entered: u64,
     /// Whether these are all there are.
     pub complete: bool,
     /// Rays that hit an object.
