@@ -210,8 +210,17 @@ fn assumptions_are_broken_one_by_one() {
             .all(|row| row.right + row.wrong + row.tied == 1)
     );
     let metrics: Vec<MetricRecord> = rows(folder.path(), "metrics.csv");
+    let (mailbox, metrics): (Vec<_>, Vec<_>) = metrics
+        .into_iter()
+        .partition(|row| row.rays == "lines with a mailbox");
     assert_eq!(metrics.len(), 28 * 5);
     assert_eq!(metrics.iter().filter(|row| row.suited).count(), 28);
+    // Of each tree the metric that tests again, which expects more, and the one that does not.
+    assert_eq!(mailbox.len(), 4 * 2);
+    for rows in mailbox.chunks(2) {
+        assert_eq!((&*rows[0].metric, &*rows[1].metric), ("area", "mailbox"));
+        assert!(rows[0].c >= rows[1].c && rows[0].c_counted == rows[1].c_counted);
+    }
     for row in &metrics {
         let own = |b: &&BiasRecord| {
             (&b.scene, &b.strategy, &b.rays) == (&row.scene, &row.strategy, &row.rays)
