@@ -233,7 +233,8 @@ pub fn exact(run: &Assumptions) -> Table {
             Cell::Count(r.node),
             Cell::Value(r.p, 5),
             Cell::Value(r.expected, 5),
-            Cell::Value(r.expected_se, 5),
+            // Closed forms have none.
+            value(Some(r.expected_se).filter(|se| *se > 0.0), 5),
             Cell::Value(r.counted, 5),
             Cell::PValue(r.p_value),
         ]

@@ -2,7 +2,7 @@
 
 use std::fmt::Write;
 
-use super::times::{Key, Residuals, interval, unidentified};
+use super::times::{INTERVALS, Key, Residuals, identified, inflation, interval, unidentified};
 use super::{CostVsWork, work};
 use crate::report::number::{counted, digits_for, fixed, grouped, signed};
 use crate::report::text::capitalised;
@@ -27,7 +27,7 @@ pub fn findings(run: &CostVsWork) -> String {
     let disturbed = run.predictions.iter().filter(|row| row.disturbed);
     let mut text = format!(
         "By time: {}, {} of a set of rays in a tree; {} of them had even and odd rounds more than 3 % apart. Models are \
-         judged on scenes that were left out. Intervals: 95 %, from a bootstrap over groups of scenes.\n\n",
+         judged on scenes that were left out. Intervals: 95 %, from a bootstrap over groups of scenes, {INTERVALS}.\n\n",
         work::trees(run),
         counted(run.predictions.len() as u64, "time"),
         grouped(disturbed.count() as u64)
@@ -68,7 +68,7 @@ fn constants_ratio(run: &CostVsWork) -> Option<String> {
         interval(inner),
         interval(test)
     );
-    // From the ends of both intervals, so at a level of at least 90 %.
+    // From the ends of both intervals, of which each fails at 5 %.
     let bounds = inner.lo.zip(inner.hi).zip(test.lo.zip(test.hi));
     let Some(((k_lo, k_hi), (t_lo, t_hi))) = bounds.filter(|(_, (_, t_hi))| *t_hi > 0.0) else {
         return Some(text + ".");
@@ -97,17 +97,32 @@ fn constants_ratio(run: &CostVsWork) -> Option<String> {
     });
     let _ = write!(
         text,
-        " (ends of both intervals, so at least 90 %); {}.",
+        " (ends of both intervals, so 90 %); {}.",
         judged.join(", ")
     );
     Some(text)
 }
 
-/// What a step costs where the processor foresees its branches, and where not.
+/// What a step costs where the processor foresees its branches, and where not; no price that cannot be told apart.
 fn step(run: &CostVsWork) -> Option<String> {
     let of = |term| constant(run, ModelRecord::CHOSEN, term);
     let inner = of(ConstantRecord::INNER)?;
-    Some(match of(ConstantRecord::SURPRISE) {
+    let surprise = of(ConstantRecord::SURPRISE);
+    if !identified(inner) {
+        return Some(format!(
+            "By chosen terms an inner node has no time of its own: it cannot be told apart from the {} (variance inflation \
+             {}){}",
+            surprise.map_or("other terms", |_| "mispredicted branches"),
+            inflation(inner),
+            surprise.map_or(".".to_owned(), |surprise| format!(
+                ". A branch that the simulated predictor gets wrong takes {}, what comes with it included; these branches \
+                 make {} % of the time.",
+                interval(surprise),
+                fixed(100.0 * surprise.share, 0)
+            ))
+        ));
+    }
+    Some(match surprise {
         Some(surprise) => format!(
             "By chosen terms an inner node whose branches are predicted takes {}; a branch that the simulated predictor gets wrong \
              adds {}, and these branches make {} % of the time.",

@@ -68,8 +68,8 @@ pub fn trees() -> CostVsWork {
     run.predictions[0].disturbed = true;
     for rays in ["lines", "primary"] {
         let shares = [
-            ("ray", 0.29),
-            ("branch mispredicted", 0.7),
+            ("constant per ray", 0.29),
+            ("mispredicted branch", 0.7),
             ("leaf (c_B)", 0.01),
         ];
         run.shares.extend(shares.map(|(term, share)| ShareRecord {

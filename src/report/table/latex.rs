@@ -66,6 +66,9 @@ fn latex(text: &str) -> String {
             '−' => out.push_str("$-$"),
             '±' => out.push_str("$\\pm$"),
             '×' => out.push_str("$\\times$"),
+            '÷' => out.push_str("$\\div$"),
+            'τ' => out.push_str("$\\tau$"),
+            '→' => out.push_str("$\\rightarrow$"),
             '·' => out.push_str("$\\cdot$"),
             '≤' => out.push_str("$\\leq$"),
             '≥' => out.push_str("$\\geq$"),
@@ -115,4 +118,16 @@ fn formulas(text: &str) -> String {
         }
     }
     out
+}
+
+#[cfg(test)]
+mod tests {
+    use super::formulas;
+
+    #[test]
+    fn signs_of_headings_are_formulas() {
+        assert_eq!(formulas("τ, mean"), "$\\tau$, mean");
+        assert_eq!(formulas("error ×/÷"), "error $\\times$/$\\div$");
+        assert_eq!(formulas("n_K, n_t"), "$n_K$, $n_t$");
+    }
 }

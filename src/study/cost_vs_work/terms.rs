@@ -131,20 +131,20 @@ impl Term {
     /// What one of it is, in tables.
     pub fn name(self) -> String {
         match self {
-            Self::Ray => "ray".into(),
+            Self::Ray => "constant per ray".into(),
             Self::Inner => ConstantRecord::INNER.into(),
             Self::Leaf => ConstantRecord::LEAF.into(),
             Self::EmptyLeaf => "empty leaf".into(),
             Self::Test => ConstantRecord::TEST.into(),
             Self::TestOf(kind) => format!("{} test", kind.name()),
-            Self::NearOf(kind) => format!("{} test whose box is crossed", kind.name()),
-            Self::Corner => "corner of a polygon whose box is crossed".into(),
+            Self::NearOf(kind) => format!("near {} test", kind.name()),
+            Self::Corner => "corner of a near polygon".into(),
             Self::Repeated => "repeated test".into(),
-            Self::Far => "inner node, per doubling of memory above 4 MiB".into(),
+            Self::Far => "inner node, far memory".into(),
             Self::Surprise => ConstantRecord::SURPRISE.into(),
-            Self::FirstMiss => "cache line not in 32 KiB".into(),
-            Self::SecondMiss => "cache line not in 1 MiB".into(),
-            Self::FarMiss => "cache line not in 1 MiB, per doubling of memory above 4 MiB".into(),
+            Self::FirstMiss => "cache miss, 32 KiB".into(),
+            Self::SecondMiss => "cache miss, 1 MiB".into(),
+            Self::FarMiss => "cache miss of 1 MiB, far memory".into(),
         }
     }
 

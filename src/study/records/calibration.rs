@@ -75,7 +75,7 @@ impl ConstantRecord {
     /// The term of c_t.
     pub const TEST: &'static str = "object test (c_t)";
     /// The term of a branch that the processor's predictor gets wrong.
-    pub const SURPRISE: &'static str = "branch mispredicted";
+    pub const SURPRISE: &'static str = "mispredicted branch";
 }
 
 /// A step of the choice of terms. A row of `times-choice.csv`.

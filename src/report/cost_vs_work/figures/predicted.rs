@@ -20,8 +20,8 @@ const TITLE: &str = "Can the time of a ray be predicted from what it does?";
 const SIDE: f64 = 147.0;
 const FIRST: f64 = 44.0;
 const ACROSS: f64 = 11.0;
-/// The band reaches so far to either side of equality.
-const BAND: f64 = 1.1;
+/// The band: |predicted/measured - 1| is at most this.
+const WITHIN: f64 = 0.1;
 
 /// Where a prediction comes from.
 type Prediction = (&'static str, fn(&PredictionRecord) -> f64);
@@ -46,7 +46,7 @@ pub fn predicted(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let caption = format!(
         "A mark is a set of rays in a tree. Predicted with constants fitted without the tree's scene: (a) of n{SUB}K \
          and n{SUB}t, put to what surface areas predict, the same for all rays; (b) the same, put to the counts of these rays; (c) \
-         of terms chosen from many. Line: measured = predicted; shaded: within 10 % of it. Above each panel: median of \
+         of terms chosen from many. Line: measured = predicted; shaded: predicted is within 10 % of measured. Above each panel: median of \
          |predicted/measured − 1|. {}",
         provenance(run, summary.seed)
     );
@@ -86,15 +86,15 @@ fn panel(
         y.ticks.iter_mut().for_each(|tick| tick.label.clear());
     }
     let mut panel = Panel::new(pen, frame, x, y);
-    let line = |factor: f64| [(low, low * factor), (high, high * factor)];
-    panel.band(&line(1.0 / BAND), &line(BAND), faded(SKY, 0.7));
+    let [lower, upper] = band([low, high]);
+    panel.band(&lower, &upper, faded(SKY, 0.7));
     let sets = sets::of(run);
     for row in &run.predictions {
         let look = sets::look(&sets, &row.rays);
         let at = (predicted(row), row.measured_ns);
         panel.mark(at, look.marker, 1.1, faded(look.colour, 0.55));
     }
-    panel.line(&line(1.0), INK, 0.5);
+    panel.line(&[(low, low), (high, high)], INK, 0.5);
     panel.heading(name, frame.left, 4.0);
     let error = Residuals::of(&run.predictions, predicted);
     let error = error.map_or(String::new(), |found| {
@@ -102,4 +102,40 @@ fn panel(
     });
     let at = (frame.right, frame.top - 4.0);
     pen.text(&error, at, SMALL, MUTED, (HPos::Right, VPos::Bottom));
+}
+
+/// Lower and upper edge of the band in a square frame, each as far as the frame: what lies outside would be moved onto it, one
+/// coordinate at a time.
+fn band([low, high]: [f64; 2]) -> [Vec<(f64, f64)>; 2] {
+    let (less, more) = (1.0 + WITHIN, 1.0 - WITHIN);
+    [
+        vec![
+            (low, low),
+            (low * less, low),
+            (high, high / less),
+            (high, high),
+        ],
+        vec![(low, low / more), (high * more, high)],
+    ]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_band_stays_in_its_frame() {
+        let (low, high) = (10.0, 1000.0);
+        let [lower, upper] = band([low, high]);
+        let inside = |at: f64| (low..=high).contains(&at);
+        let mut edges = lower.iter().chain(&upper);
+        assert!(edges.all(|&(x, y)| inside(x) && inside(y)));
+        let error = |(x, y): (f64, f64)| x / y - 1.0;
+        for at in &lower[1..3] {
+            assert!((error(*at) - WITHIN).abs() < 1e-12, "{at:?}");
+        }
+        for at in &upper {
+            assert!((error(*at) + WITHIN).abs() < 1e-12, "{at:?}");
+        }
+    }
 }

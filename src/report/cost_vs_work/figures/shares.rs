@@ -5,6 +5,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::super::CostVsWork;
 use super::super::spread::median;
+use super::super::times::TERMS;
 use super::provenance;
 use crate::report::axis::Axis;
 use crate::report::figure::{Figure, LEFT, WIDTH};
@@ -25,6 +26,8 @@ const BAR: f64 = 12.0;
 const ROW: f64 = 18.0;
 /// Terms whose share is below this in every set go together.
 const SMALLEST: f64 = 0.02;
+/// A smaller part of a bar is not drawn.
+const SEEN: f64 = 0.005;
 /// Colours that the palette tells apart: later ones are fainter.
 const COLOURS: usize = 7;
 /// Room for the times right of the bars.
@@ -35,7 +38,7 @@ pub fn shares(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let parts = Parts::of(run)?;
     let caption = format!(
         "Share of each chosen term in the predicted time of a ray, mean over scenes and trees, with constants fitted to all scenes; \
-         right: median of the measured times. Terms below {} % everywhere are other terms. {}",
+         right: median of the measured times. {TERMS} Terms below {} % everywhere are other terms. {}",
         fixed(100.0 * SMALLEST, 0),
         provenance(run, summary.seed)
     );
@@ -115,6 +118,17 @@ fn subscripted(name: &str) -> String {
     name.replace('_', &SUB.to_string())
 }
 
+/// Whether the terms that are not among these make a part that can be seen, of any set.
+fn others_show(run: &CostVsWork, terms: &[&str]) -> bool {
+    let of_set = |set: &str| {
+        let own = run.shares.iter().filter(|row| row.rays == set);
+        let others = own.filter(|row| !terms.contains(&row.term.as_str()));
+        others.map(|row| row.share).sum::<f64>()
+    };
+    let sets = distinct(run.shares.iter().map(|row| row.rays.as_str()));
+    sets.into_iter().any(|set| of_set(set) >= SEEN)
+}
+
 /// The parts of the bars.
 struct Parts<'r> {
     sets: Vec<&'r str>,
@@ -131,10 +145,10 @@ impl<'r> Parts<'r> {
             let own = run.shares.iter().filter(|row| row.term == *term);
             own.map(|row| row.share).fold(0.0, f64::max) >= SMALLEST
         };
-        let terms: Vec<&str> = all.iter().copied().filter(large).collect();
+        let terms: Vec<&str> = all.into_iter().filter(large).collect();
         (!terms.is_empty()).then(|| Self {
             sets: distinct(run.shares.iter().map(|row| row.rays.as_str())),
-            others: terms.len() < all.len(),
+            others: others_show(run, &terms),
             terms,
         })
     }

@@ -13,7 +13,8 @@ pub fn choice(run: &CostVsWork) -> Table {
     let last = run.choices.iter().map(|row| row.step).max().unwrap_or(0);
     let mut rows = Vec::new();
     for step in 1..=last {
-        let own = run.choices.iter().filter(|row| row.step == step);
+        let told = |row: &&ChoiceRecord| row.step == step && changes(row);
+        let own = run.choices.iter().filter(told);
         let mut own: Vec<&ChoiceRecord> = own.collect();
         own.sort_by(|a, b| b.gain.total_cmp(&a.gain));
         rows.extend(own.into_iter().take(TOLD).map(row));
@@ -22,7 +23,8 @@ pub fn choice(run: &CostVsWork) -> Table {
         caption: "How terms were added to n_K and n_t, one step after the other: of each step the candidate of the largest gain \
                   and the next. Gain: by how much the mean relative error of scenes left out falls, in percentage \
                   points, mean over scenes and its standard error. The first is taken where its gain is above one standard error; \
-                  at the step where it is not, the choice ends."
+                  at the step where it is not, the choice ends. Candidates that change \
+                  nothing are not shown."
             .to_owned(),
         columns: vec![
             Column::right("step", "step"),
@@ -36,6 +38,14 @@ pub fn choice(run: &CostVsWork) -> Table {
         keys: 2,
         rows,
     }
+}
+
+/// Gains up to this come from rounding.
+const NOTHING: f64 = 1e-12;
+
+/// Whether the candidate changes any prediction: else its constant is 0, and so are its gain and the error of that.
+fn changes(c: &ChoiceRecord) -> bool {
+    c.taken || c.gain.abs() > NOTHING || c.gain_se > NOTHING
 }
 
 fn row(c: &ChoiceRecord) -> Vec<Cell> {

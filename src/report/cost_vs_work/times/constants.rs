@@ -3,8 +3,9 @@
 use super::super::CostVsWork;
 use super::super::shown::{known, percent, text};
 use crate::report::number::{decimals_for, digits_for, fixed};
+use crate::report::series::distinct;
 use crate::report::table::{Cell, Column, Table};
-use crate::study::records::{ConstantRecord, ModelRecord};
+use crate::study::records::ConstantRecord;
 
 /// Variance inflation above which a constant is not told apart from the others.
 const INFLATED: f64 = 10.0;
@@ -30,23 +31,45 @@ pub fn interval(constant: &ConstantRecord) -> String {
     format!("{} ns{ends}", show(constant.ns))
 }
 
-/// A sentence on the model of the tree cost C, where c_K and c_B cannot be told apart.
+/// How far the intervals are to be believed.
+pub const INTERVALS: &str = "given these terms; of few groups of scenes, so rather too short";
+
+/// Whether the other terms of its model leave a constant to be told.
+pub fn identified(constant: &ConstantRecord) -> bool {
+    constant.inflation.is_some_and(|by| by <= INFLATED)
+}
+
+/// A constant's variance inflation, in words.
+pub fn inflation(constant: &ConstantRecord) -> String {
+    let infinite = || "without end".to_owned();
+    constant.inflation.map_or_else(infinite, |by| fixed(by, 1))
+}
+
+/// A sentence on the constants of all models that cannot be told apart; `None` where all can.
 pub fn unidentified(run: &CostVsWork) -> Option<String> {
-    let of = |term: &str| {
-        let own = |c: &&ConstantRecord| c.model == ModelRecord::THREE && c.term == term;
-        run.constants.iter().find(own)?.inflation
+    let models = distinct(run.constants.iter().map(|c| c.model.as_str()));
+    let of = |model: &str| {
+        let own = run.constants.iter().filter(|c| c.model == model);
+        let own = own.filter(|c| !identified(c));
+        let terms: Vec<String> = own
+            .map(|c| format!("{} {}", c.term, inflation(c)))
+            .collect();
+        (!terms.is_empty()).then(|| format!("of the model {model}: {}", terms.join("; ")))
     };
-    let (inner, leaf) = (of(ConstantRecord::INNER)?, of(ConstantRecord::LEAF)?);
-    (inner > INFLATED && leaf > INFLATED).then(|| {
+    let found: Vec<String> = models.into_iter().filter_map(of).collect();
+    (!found.is_empty()).then(|| {
         format!(
-            "In the model {} c_K and c_B are not separately identified: their variance inflation is {} and {}, above {}.",
-            ModelRecord::THREE,
-            fixed(inner, 1),
-            fixed(leaf, 1),
-            fixed(INFLATED, 0)
+            "Not separately identified, with a variance inflation above {}, are {}.",
+            fixed(INFLATED, 0),
+            found.join("; and ")
         )
     })
 }
+
+/// What the terms mean, for captions.
+pub const TERMS: &str = "Mispredicted branches and cache misses are those of a simulated branch predictor and of simulated \
+                         caches. Near: the ray crosses the object's own box. Far memory: times the doublings of the memory \
+                         of tree and objects above 4 MiB.";
 
 /// The constants that are wanted.
 pub fn constants(run: &CostVsWork, wanted: impl Fn(&&ConstantRecord) -> bool) -> Table {
@@ -67,8 +90,8 @@ pub fn constants(run: &CostVsWork, wanted: impl Fn(&&ConstantRecord) -> bool) ->
     Table {
         caption: format!(
             "Nanoseconds of one of each term, fitted to all scenes (non-negative least squares of relative errors), with the 95 % \
-             interval of a bootstrap over groups of scenes; inflation: by how much the other terms widen its variance; share: of \
-             the predicted time, mean over all times.{remark}"
+             interval of a bootstrap over groups of scenes ({INTERVALS}); inflation: by how much the other terms widen its \
+             variance; share: of the predicted time, mean over all times. {TERMS}{remark}"
         ),
         columns: vec![
             Column::left("model", "model"),

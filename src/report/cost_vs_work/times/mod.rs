@@ -6,6 +6,6 @@ mod models;
 mod residuals;
 
 pub use choice::choice;
-pub use constants::{constants, interval, unidentified};
+pub use constants::{INTERVALS, TERMS, constants, identified, inflation, interval, unidentified};
 pub use models::{models, order};
 pub use residuals::{Key, Residuals, residuals};

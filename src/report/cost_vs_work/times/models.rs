@@ -28,10 +28,16 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
         ]
     };
     let rows = run.models.first().map_or(0, |m| m.rows);
+    let groups = groups_differ(&run.models);
+    let left_out = if groups {
+        "the scene alone, or all its sizes"
+    } else {
+        "the scene; no two are sizes of one"
+    };
     Table {
         caption: format!(
-            "The time of a ray predicted from its counts by models fitted without the scene they are judged on (left out: the \
-             scene alone, or all its sizes; where the terms are chosen, what is left out had no say in that either). Error: \
+            "The time of a ray predicted from its counts by models fitted without the scene they are judged on (left out: \
+             {left_out}; where the terms are chosen, what is left out had no say in that either). Error: \
              |predicted/measured − 1| of {rows} times of a set of rays in a tree: median, mean, 90 % quantile, largest. Where a \
              model has one constant, it is the scale of the ratio c_K:c_t that its name gives. {ORDER}"
         ),
@@ -49,8 +55,26 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
             Column::right("worst %", "regret_max_pct"),
         ],
         keys: 2,
-        rows: run.models.iter().filter(wanted).map(row).collect(),
+        rows: run
+            .models
+            .iter()
+            .filter(|m| groups || m.left_out != ModelRecord::GROUP)
+            .filter(wanted)
+            .map(row)
+            .collect(),
     }
+}
+
+/// Whether it matters to any model that all sizes of a scene are left out: not where each is a group of its own.
+fn groups_differ(models: &[ModelRecord]) -> bool {
+    let mut of_group = models.iter().filter(|m| m.left_out == ModelRecord::GROUP);
+    of_group.any(|group| {
+        let alone = ModelRecord {
+            left_out: ModelRecord::SCENE.to_owned(),
+            ..group.clone()
+        };
+        !models.contains(&alone)
+    })
 }
 
 /// How well costs of every origin put trees into the order of their times, by set of rays.
