@@ -1,6 +1,7 @@
 //! Which strategy to take for which rays: predicted by areas, counted on the rays.
 
-use super::number::{digits_for, fixed, percent_above, significant};
+use super::cost_vs_work::SETS;
+use super::number::{counted, digits_for, fixed, percent_above, significant};
 use super::table::{Cell, Column, Table};
 use crate::study::records::StrategyChoiceRecord;
 
@@ -52,11 +53,12 @@ pub fn table(choices: &[StrategyChoiceRecord]) -> Table {
         row
     };
     Table {
-        caption: "What areas tell of rays that are not isotropic lines without end. The strategy of least C predicted, its C a \
+        caption: format!(
+            "What areas tell of rays that are not isotropic lines without end. The strategy of least C predicted, its C a \
                   ray predicted and counted, counted over predicted; Kendall's tau over all strategies between C predicted \
                   and counted (1: the same order); the strategy of least C counted, and the per cent by \
-                  which the areas' choice costs more."
-            .to_owned(),
+                  which the areas' choice costs more. {SETS} Own: the user's rays."
+        ),
         columns,
         keys: 1 + usize::from(scenes),
         rows: choices.iter().map(row).collect(),
@@ -92,17 +94,22 @@ pub fn is_own(choice: &StrategyChoiceRecord) -> bool {
     choice.rays == "own" || choice.rays.starts_with("own:")
 }
 
-/// Which strategy to take for these rays, what it costs, and for what the prediction is to be trusted.
+/// Which strategy to take for these rays, what it costs, and for what the prediction is to be trusted; no strategy where no ray
+/// meets the scene or all cost the same.
 pub fn advice(choice: &StrategyChoiceRecord) -> String {
     let c = choice;
+    let rays = format!("{} ({})", c.rays, counted(c.cast, "ray"));
+    if c.least_c_counted.is_nan() || c.least_c_counted <= 0.0 {
+        return format!("For {rays}: no ray meets the scene: nothing to compare.");
+    }
     let lost = loss(c);
     let same = lost.is_some_and(|loss| loss < EQUAL);
-    let (take, predicted, counted) = if same {
+    let (take, predicted, cost) = if same {
         (&c.predicted, c.predicted_c_predicted, c.predicted_c_counted)
     } else {
         (&c.least, c.least_c_predicted, c.least_c_counted)
     };
-    let [predicted, counted] = [predicted, counted].map(|c| significant(c, 4));
+    let [predicted, cost] = [predicted, cost].map(|c| significant(c, 4));
     let [trusted, others] = &trust(c);
     let trust = match (trusted.as_slice(), others.as_slice()) {
         ([], _) => format!("do not trust the prediction for {}", listed(others, "or")),
@@ -113,10 +120,20 @@ pub fn advice(choice: &StrategyChoiceRecord) -> String {
             listed(others, "or")
         ),
     };
+    if undecided(c) {
+        return format!(
+            "For {rays} there is nothing to choose: predicted or counted, all strategies cost the same. {take} is predicted to \
+             cost {predicted} a ray and counted at {cost}: {trust}."
+        );
+    }
     format!(
-        "For {} take {take}, predicted to cost {predicted} a ray and counted at {counted}: {trust}.",
-        c.rays
+        "For {rays} take {take}, predicted to cost {predicted} a ray and counted at {cost}: {trust}."
     )
+}
+
+/// Whether no strategy is to be preferred: all have the same cost, predicted or counted.
+fn undecided(c: &StrategyChoiceRecord) -> bool {
+    c.kendall_tau.is_none() && loss(c).is_some_and(|loss| loss < EQUAL)
 }
 
 /// What of the prediction is trusted, and what is not.
@@ -129,10 +146,12 @@ fn trust(c: &StrategyChoiceRecord) -> [Vec<String>; 2] {
         None => "the best costs nothing".to_owned(),
     };
     let near = loss(c).is_some_and(|loss| loss <= MOST_LOSS);
-    tell(
-        near,
-        format!("the choice of a strategy ({}, {above})", c.predicted),
-    );
+    if !undecided(c) {
+        tell(
+            near,
+            format!("the choice of a strategy ({}, {above})", c.predicted),
+        );
+    }
     if let Some(tau) = c.kendall_tau {
         let order = format!(
             "the order of all {} (Kendall's tau {})",
@@ -174,14 +193,14 @@ mod tests {
         };
         assert_eq!(
             with(Some(0.95), 100.0, 99.0, 99.0),
-            "For own:nearest take sah, predicted to cost 100.0 a ray and counted at 99.00: trust the prediction for the choice \
+            "For own:nearest (1,000 rays) take sah, predicted to cost 100.0 a ray and counted at 99.00: trust the prediction for the choice \
              of a strategy (sah, none is better), the order of all 3 (Kendall's tau 0.95) and the cost (counted is 0.990 times \
              it)."
         );
         let order = with(Some(0.95), 100.0, 50.0, 49.0);
         assert_eq!(
             order,
-            "For own:nearest take sah-cyclic, predicted to cost 120.0 a ray and counted at 49.00: trust the prediction for the \
+            "For own:nearest (1,000 rays) take sah-cyclic, predicted to cost 120.0 a ray and counted at 49.00: trust the prediction for the \
              choice of a strategy (sah, 2.0 % above the best) and the order of all 3 (Kendall's tau 0.95), not for the cost \
              (counted is 0.500 times it)."
         );
@@ -191,12 +210,15 @@ mod tests {
              (Kendall's tau −0.50) or the cost"
         ));
         let equal = with(None, 100.0, 100.0, 100.0);
-        assert!(equal.contains("(sah, none is better) and the cost (counted is 1.00 times it)."));
+        assert_eq!(
+            equal,
+            "For own:nearest (1,000 rays) there is nothing to choose: predicted or counted, all strategies cost the same. sah is \
+             predicted to cost 100.0 a ray and counted at 100.0: trust the prediction for the cost (counted is 1.00 times it)."
+        );
         // Rays that meet no tree.
-        let free = with(None, 100.0, 0.0, 0.0);
-        assert!(
-            free.contains("none is better), not for the cost (counted is 0 times it)."),
-            "{free}"
+        assert_eq!(
+            with(None, 100.0, 0.0, 0.0),
+            "For own:nearest (1,000 rays): no ray meets the scene: nothing to compare."
         );
     }
 

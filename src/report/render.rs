@@ -7,7 +7,7 @@ use super::axis::Axis;
 use super::bitmap::Bitmap;
 use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::glyphs::SUB;
-use super::number::grouped;
+use super::number::{counted, grouped};
 use super::palette::{AXIS, INK, MUTED, viridis};
 use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
 
@@ -63,8 +63,8 @@ fn caption(render: &Render) -> String {
     let [k, b, t] = render.constants;
     let kinds = render.rays.iter().map(|&(name, rays, hits)| {
         format!(
-            "{} {name} rays, of which {} hit",
-            grouped(rays),
+            "{}, of which {} hit",
+            counted(rays, &format!("{name} ray")),
             grouped(hits)
         )
     });

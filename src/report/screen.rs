@@ -33,8 +33,8 @@ fn hits_study(run: &Run, hits: &Hits) -> String {
     let first = &hits.cells[0];
     let _ = writeln!(
         text,
-        "{} cells, stop {}, costs {}:{}:{}, seed {}, {} lines in all\n",
-        hits.cells.len(),
+        "{}, stop {}, costs {}:{}:{}, seed {}, {} lines in all\n",
+        counted(hits.cells.len() as u64, "cell"),
         first.stop,
         first.c_k,
         first.c_b,
@@ -181,11 +181,11 @@ pub fn speed(run: &Run) -> String {
     let (build, count) = (sum(|t| t.build_s), sum(|t| t.count_s));
     let visits: u64 = timings.iter().map(|t| t.visits).sum();
     format!(
-        "speed  {} visits in {} s of counting ({} a second, {} threads), trees built in {} s\n",
+        "speed  {} visits in {} s of counting ({} a second, {}), trees built in {} s\n",
         significant(visits as f64, 3),
         significant(count, 3),
         significant(visits as f64 / count, 3),
-        first.threads,
+        counted(first.threads, "thread"),
         significant(build, 3)
     )
 }

@@ -17,6 +17,11 @@ use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
 use crate::study::records::{MetricRecord, OrderRecord, Summary};
 
 const TITLE: &str = "Do metrics that give up an assumption predict such rays better?";
+/// What the names of metrics mean, for captions.
+const METRICS: &str = "Metrics expect the counts of: interior, rays from anywhere inside the root's box; occlusion, isotropic lines, \
+                       stopped at their first hit; interior-occlusion, rays from inside, stopped; surface, rays from the objects' \
+                       surfaces, stopped.";
+
 /// The surface area metric's name.
 pub const AREA: &str = "area";
 const BEFORE: Look = Look {
@@ -93,16 +98,20 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let caption = format!(
         "Tree cost C, counted over expected, per ray that hits the root's box: range over all trees (scenes by strategies, stop \
          {}), mark at the geometric mean. Grey: the surface area metric. Red: the metric whose rays begin and end most like these, \
-         named at the right; no other is offered where nothing is stopped or begins inside. Error: the factor by which it errs in \
-         the mean (exp of the mean of |ln ratio|), before → after. τ: Kendall's rank correlation of the strategies' costs, mean over \
+         named at the right; no other is offered where nothing is stopped or begins inside. {} Error: the factor by which it errs \
+         in the mean (exp of the mean of |ln ratio|), before → after; ↑: it errs more than the surface area metric. τ: Kendall's rank correlation of the strategies' costs, mean over \
          the scenes. Blue dots: assumptions that the rays break. Seed {}.",
         summary.stop.as_deref().unwrap_or("unknown"),
+        METRICS,
         summary.seed
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
     let keys = [
         (Key::Mark(BEFORE), "surface area metric".to_owned()),
-        (Key::Mark(AFTER), "metric that suits the rays".to_owned()),
+        (
+            Key::Mark(AFTER),
+            "metric of the same beginning and end".to_owned(),
+        ),
     ];
     let top = 38.0 + HEADINGS;
     let rows = Rows::of(run, top);
@@ -138,7 +147,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
             let at = (edge - COLUMNS[column], y);
             pen.text(text, at, SMALL, MUTED, (HPos::Right, lift));
         };
-        for (column, text) in ["metric", "error", "τ"].iter().enumerate() {
+        for (column, text) in ["metric", "error ×/÷", "τ"].iter().enumerate() {
             note(text, column, top - 4.0, VPos::Bottom);
         }
         for (i, set) in rows.sets.iter().enumerate() {
@@ -160,7 +169,12 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
                 all.into_iter().flatten().collect::<Vec<_>>().join(" → ")
             };
             let y = rows.middle(i);
-            note(&both(|fit| fit.error(), 2), 1, y, VPos::Center);
+            let errs_more = after
+                .as_ref()
+                .is_some_and(|after| after.error() > before.error());
+            let mark = if errs_more { "↑ " } else { "" };
+            let errors = both(|fit| fit.error(), 2);
+            note(&format!("{mark}{errors}"), 1, y, VPos::Center);
             note(&both(|fit| arithmetic(&fit.taus), 2), 2, y, VPos::Center);
             if let Some(after) = &after {
                 draw(after, AFTER, -apart);
@@ -201,11 +215,12 @@ pub fn summary(run: &Assumptions) -> Table {
     };
     let sets = distinct(run.metrics.iter().map(|row| row.rays.as_str()));
     Table {
-        caption: "Tree cost C of rays that break an assumption: the factor by which the surface area metric errs in the mean (exp \
+        caption: format!(
+            "Tree cost C of rays that break an assumption: the factor by which the surface area metric errs in the mean (exp \
                   of the mean of |ln(counted/expected)| over all trees), and the metric whose rays begin and end most like these; \
                   τ: Kendall's rank correlation of the strategies' costs expected and counted, mean over the scenes; regret: what \
-                  the tree expected to be cheapest costs above the cheapest, likewise."
-            .to_owned(),
+                  the tree expected to be cheapest costs above the cheapest, likewise. {METRICS} Mailbox: lines that test no object twice."
+        ),
         columns,
         keys: 2,
         rows: sets.into_iter().filter_map(row).collect(),
@@ -226,7 +241,6 @@ pub fn table(run: &Assumptions) -> Table {
         Column::right("τ", "tau"),
         Column::right("regret, %", "regret_pct"),
     ];
-    let metrics = distinct(run.metrics.iter().map(|row| row.metric.as_str()));
     let row = |set: &str, metric: &str| {
         let fit = Fit::of(run, set, metric);
         let [least, mean, largest] = match fit.range() {
@@ -251,18 +265,22 @@ pub fn table(run: &Assumptions) -> Table {
             value(arithmetic(&fit.regrets).map(|regret| 100.0 * regret), 2),
         ]
     };
-    let rows = run.sets().into_iter().flat_map(|set| {
-        let one = |metric: &&str| row(set, metric);
-        metrics.iter().map(one).collect::<Vec<_>>()
+    let sets = distinct(run.metrics.iter().map(|row| row.rays.as_str()));
+    let rows = sets.into_iter().flat_map(|set| {
+        let own = run.metrics.iter().filter(move |row| row.rays == set);
+        let metrics = distinct(own.map(|row| row.metric.as_str()));
+        metrics.into_iter().map(move |metric| row(set, metric))
     });
     Table {
-        caption: "Metrics before and after giving up an assumption: tree cost C counted over expected, per ray that hits the root's box; \
+        caption: format!(
+            "Metrics before and after giving up an assumption: tree cost C counted over expected, per ray that hits the root's box; \
                   geometric mean over all trees, least, largest, and the scatter of the trees about the mean (exp of the standard \
                   deviation of the logarithm); error: the factor by which the metric errs in the mean (exp of the mean of |ln ratio|). \
                   τ: Kendall's rank correlation of the strategies' costs expected and counted, mean over the scenes; regret: what the \
                   tree that the metric expects to be cheapest costs above the cheapest, likewise. Suits: its rays begin and end most \
-                  like these."
-            .to_owned(),
+                  like these. Area: the surface area metric, isotropic lines that never stop. {METRICS} Lines with a mailbox: \
+                  the same lines, but objects already tested are not tested again; mailbox: the metric that expects so."
+        ),
         columns,
         keys: 2,
         rows: rows.collect(),

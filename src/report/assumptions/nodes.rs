@@ -21,8 +21,8 @@ const TITLE: &str = "Where does the metric err? Rays that hit a node, counted ov
 const COLUMNS: usize = 3;
 /// Size of a panel, and how far apart panels begin.
 const SIZE: (f64, f64) = (137.0, 88.0);
-const PITCH: (f64, f64) = (164.0, 135.0);
-const FIRST: (f64, f64) = (38.0, 66.0);
+const PITCH: (f64, f64) = (164.0, 144.0);
+const FIRST: (f64, f64) = (38.0, 75.0);
 /// What chance alone does to 95 % of the nodes.
 const BAND: RGBAColor = faded(SKY, 0.32);
 /// Behind a remark that nodes may reach.
@@ -41,10 +41,10 @@ pub fn figure(
     let strategy = summary.figure_strategy.as_deref().unwrap_or_default();
     let caption = format!(
         "Nodes of one tree ({scene}, strategy {strategy}, stop {}), counted over N p, their hits predicted from surface areas: \
-         1 where the metric is right. N rays hit the root's box ({}). Nodes with N p ≥ 25, of all \
-         but the 500 largest at most 1,500; on an edge: that or beyond. Colour: \
+         1 where the metric is right. N rays hit the root's box ({}). Nodes with N p ≥ 25, at most 2,000 \
+         nodes drawn; marks on the frame lie outside it. Colour: \
          distance of the node's centre from the root's, over half of the root's diagonal. C ×: tree cost counted over predicted; \
-         nodes ×/÷: a standard deviation of the nodes' ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
+         scatter of nodes ×/÷: a standard deviation of their ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
          strategies' costs, predicted and counted. Seed {}.{}",
         summary.stop.as_deref().unwrap_or("unknown"),
         rays_each(run, sets),
@@ -56,16 +56,17 @@ pub fn figure(
         }
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
-    let keys = [
-        (
-            Key::Scale("root's centre", "root's corner"),
-            "place of a node",
-        ),
-        (Key::Line(INK), "all nodes of about that p together"),
-        (Key::Area(BAND), "95 % of chance"),
-    ];
-    let keys = keys.map(|(key, text)| (key, text.to_owned()));
     let axes = Axes::of(run.visits.iter().filter(|row| sets.contains(&&*row.rays)));
+    let has_line = |set: &&str| !together(run, set, (scene, strategy), axes.p).is_empty();
+    let place = Key::Scale("root's centre", "root's corner");
+    let line = (Key::Line(INK), "all nodes of about that p together");
+    let mut keys = vec![(place, "place of a node")];
+    keys.extend(sets.iter().any(has_line).then_some(line));
+    keys.push((Key::Area(BAND), "95 % range of sampling noise"));
+    let keys: Vec<_> = keys
+        .into_iter()
+        .map(|(key, text)| (key, text.to_owned()))
+        .collect();
     let lines = sets.len().div_ceil(COLUMNS);
     let bottom = FIRST.1 + PITCH.1 * (lines - 1) as f64 + SIZE.1;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
@@ -160,32 +161,50 @@ fn draw(
             .filter_map(|row| Some((panel.place((row.p, ratio(row)))?, row.distance))),
     );
     panel.line(&[(axes.p.0, 1.0), (axes.p.1, 1.0)], faded(INK, 0.55), 0.5);
-    let together: Vec<(f64, f64)> = run
-        .groups
-        .iter()
-        .filter(|row| (&*row.scene, &*row.strategy) == tree && row.rays == set && row.by == "area")
-        .filter(|row| 10f64.powf(row.lo) >= axes.p.0)
-        .filter_map(|row| Some((10f64.powf(0.5 * (row.lo + row.hi)), row.ratio?)))
-        .filter(|point| point.1 > 0.0)
-        .collect();
-    if together.len() > 1 {
-        panel.line(&together, INK, 1.1);
-    }
+    panel.line(&together(run, set, tree, axes.p), INK, 1.1);
     let edge = frame.left - 2.0;
     let broken = Broken::of(&run.bias, set).words();
-    panel.heading(&fit(&words(set), MEDIUM + 0.6, SIZE.0 + 4.0), edge, 13.0);
-    pen.text(
-        &broken,
-        (edge, frame.top - 4.0),
-        SMALL,
-        MUTED,
-        (HPos::Left, VPos::Bottom),
-    );
+    panel.heading(&fit(&words(set), MEDIUM + 0.6, SIZE.0 + 4.0), edge, 22.0);
+    for (text, lift) in [(set, 13.0), (&*broken, 4.0)] {
+        let at = (edge, frame.top - lift);
+        let text = fit(text, SMALL, SIZE.0 + 4.0);
+        pen.text(&text, at, SMALL, MUTED, (HPos::Left, VPos::Bottom));
+    }
     let summary = summary_of(run, set, tree);
     let (left, top) = (frame.left + 1.5, frame.top + 1.0);
     let end = left + 4.0 + text_width(&summary, SMALL);
     pen.rectangle((left, top), (end, top + 10.0), BACKING);
     panel.note(&summary, false);
+}
+
+/// Counted over predicted of all nodes of about the same p together, as far as the frame: each group stands at the mean p of
+/// its nodes. Empty where that makes no line.
+fn together(
+    run: &Assumptions,
+    set: &str,
+    tree: (&str, &str),
+    (least, most): (f64, f64),
+) -> Vec<(f64, f64)> {
+    let own = run
+        .groups
+        .iter()
+        .filter(|row| (&*row.scene, &*row.strategy) == tree && row.rays == set && row.by == "area");
+    let mut all: Vec<(f64, f64)> = own
+        .filter_map(|row| Some((row.p_sum / row.nodes as f64, row.ratio?)))
+        .filter(|(p, ratio)| *p > 0.0 && *p <= most && *ratio > 0.0)
+        .collect();
+    all.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let beyond = all.partition_point(|(p, _)| *p < least);
+    if let ([.., before], Some(after)) = (&all[..beyond], all.get(beyond)) {
+        // Where the line enters the frame, whose axes are logarithmic.
+        let share = (least / before.0).ln() / (after.0 / before.0).ln();
+        let enters = before.1 * (after.1 / before.1).powf(share);
+        all[beyond - 1] = (least, enters);
+        all.drain(..beyond - 1);
+    } else {
+        all.drain(..beyond);
+    }
+    if all.len() > 1 { all } else { Vec::new() }
 }
 
 /// How much in total, per node, and for the order of the strategies.
@@ -202,7 +221,7 @@ fn summary_of(run: &Assumptions, set: &str, tree: (&str, &str)) -> String {
         row.and_then(|row| row.c)
             .map(|c| format!("C × {}", fixed(c, 2))),
         row.and_then(|row| row.spread)
-            .map(|s| format!("nodes ×/÷ {}", fixed(s.exp(), 2))),
+            .map(|s| format!("scatter of nodes ×/÷ {}", fixed(s.exp(), 2))),
         order
             .and_then(|row| row.tau)
             .map(|tau| format!("τ {}", fixed(tau, 1))),

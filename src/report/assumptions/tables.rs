@@ -256,27 +256,23 @@ pub fn short(run: &Assumptions) -> Table {
         Column::left("rays", "rays"),
         Column::left("breaks", "breaks"),
         Column::right("C", "c"),
-        Column::right("least", "c_least"),
-        Column::right("largest", "c_largest"),
         Column::right("nodes ×/÷", "scatter"),
         Column::right("τ", "tau"),
         Column::right("regret, %", "regret"),
     ];
     let row = |of: OfSet| {
-        let [least, mean, largest] = of.range(|row| row.c);
+        let [_, mean, _] = of.range(|row| row.c);
         vec![
             Cell::Text(of.set.to_owned()),
             Cell::Text(Broken::of(&run.bias, of.set).words()),
             value(mean, 2),
-            value(least, 2),
-            value(largest, 2),
             value(of.scatter(), 2),
             value(arithmetic(&of.taus()), 2),
             value(of.regret().0, 1),
         ]
     };
     Table {
-        caption: "Tree cost C counted over predicted: geometric mean over all trees, least, largest. Nodes ×/÷: scatter of single nodes. \
+        caption: "Tree cost C counted over predicted: geometric mean over all trees. Nodes ×/÷: scatter of single nodes. \
                   τ: rank correlation of the strategies' costs predicted and counted, mean over the scenes. Regret: what the tree \
                   predicted to be cheapest costs above the cheapest, mean over the scenes."
             .to_owned(),

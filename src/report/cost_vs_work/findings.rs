@@ -110,7 +110,7 @@ fn step(run: &CostVsWork) -> Option<String> {
     let surprise = of(ConstantRecord::SURPRISE);
     if !identified(inner) {
         return Some(format!(
-            "By chosen terms an inner node has no time of its own: it cannot be told apart from the {} (variance inflation \
+            "By chosen terms no price of an inner node is given: it cannot be told apart from the {} (variance inflation \
              {}){}",
             surprise.map_or("other terms", |_| "mispredicted branches"),
             inflation(inner),

@@ -26,6 +26,7 @@ use crate::study::records::{
     CellRecord, ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord,
     ShareRecord, Summary, TimeVerdicts, TreeOrderRecord, WorkRecord,
 };
+pub(super) use sets::NAMES as SETS;
 use times::Key;
 
 /// The files of a run of kind `cost-vs-work`.

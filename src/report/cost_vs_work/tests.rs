@@ -153,7 +153,7 @@ fn findings_are_made_from_the_numbers() {
         "an inner node takes 16.9 ns (13.8 to 20.0) and an object test 4.4 ns (2.0 to 14.9): c_K:c_t is 0.93 to 10:1",
         "15:20 (Wald and Havran 2006) lies below, 1:80 (pbrt) lies below, 1.2:1 (Aila 2013) lies within.",
         "(ends of both intervals, so 90 %)",
-        "an inner node has no time of its own: it cannot be told apart from the mispredicted branches (variance inflation 17.5). \
+        "no price of an inner node is given: it cannot be told apart from the mispredicted branches (variance inflation 17.5). \
          A branch that the simulated predictor gets wrong takes 16 ns, what comes with it included; these branches make 57 % of \
          the time.",
         "- Error 9.5 %, at most 0.1 wanted: **held**. By n_K and n_t alone: median relative error 28.3 %",

@@ -6,7 +6,7 @@ use plotters::style::text_anchor::{HPos, VPos};
 use crate::report::axis::{Axis, Tick, extent};
 use crate::report::figure::{Figure, LEFT, WIDTH};
 use crate::report::legend::{Key, LEGEND_LEADING, legend, legend_rows};
-use crate::report::number::grouped;
+use crate::report::number::{counted, grouped};
 use crate::report::palette::{INK, Look, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
@@ -22,12 +22,12 @@ const CENTRES: RGBAColor = faded(INK, 0.8);
 pub fn figure(rows: &[MedianRecord], summary: &Summary) -> Figure {
     let scenes = distinct(rows.iter().map(|r| r.scene.as_str()));
     let whole_rows = rows.iter().filter(|r| r.axis == "all" && is_whole(r));
-    let looked_at = grouped(whole_rows.map(|r| r.nodes).sum());
+    let looked_at = counted(whole_rows.map(|r| r.nodes).sum(), "case");
     let caption = format!(
         "Inner nodes of the trees of strategy sah, stop {}, each once an axis. (a) Share of nodes whose least f lies between \
          the two medians, by objects in the node: straddlers counted on both sides (lines), each object once, by its centre \
          (dashes). (b) f at the object median over f at the spatial one, where something straddles either: median, middle half \
-         (thick), 5 to 95 % (thin) of the nodes. Where nothing straddles and the object median parts the objects evenly it is 0. {looked_at} cases, seed {}.",
+         (thick), 5 to 95 % (thin) of the nodes. Where nothing straddles and the object median parts the objects evenly it is 0. {looked_at}, seed {}.",
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );

@@ -7,7 +7,7 @@ mod shares;
 
 use super::{CostVsWork, sets};
 use crate::report::legend::Key;
-use crate::report::number::grouped;
+use crate::report::number::{counted as numbered, grouped};
 
 pub use counted::counted;
 pub use predicted::predicted;
@@ -26,8 +26,8 @@ fn provenance(run: &CostVsWork, seed: u64) -> String {
     let trees = super::work::trees(run);
     let disturbed = run.predictions.iter().filter(|row| row.disturbed);
     format!(
-        "{trees}, {} times ({} of them disturbed: halves of the rounds more than 3 % apart), seed {seed}.",
-        grouped(run.predictions.len() as u64),
+        "{trees}, {} ({} of them disturbed: halves of the rounds more than 3 % apart), seed {seed}.",
+        numbered(run.predictions.len() as u64, "time"),
         grouped(disturbed.count() as u64)
     )
 }

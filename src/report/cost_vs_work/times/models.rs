@@ -2,6 +2,7 @@
 
 use super::super::CostVsWork;
 use super::super::shown::{known, percent, tau, text};
+use crate::report::number::counted;
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{ModelRecord, OrderOfTimesRecord};
 
@@ -27,7 +28,7 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
             percent(m.regret_max.unwrap_or(f64::NAN)),
         ]
     };
-    let rows = run.models.first().map_or(0, |m| m.rows);
+    let rows = counted(run.models.first().map_or(0, |m| m.rows), "time");
     let groups = groups_differ(&run.models);
     let left_out = if groups {
         "the scene alone, or all its sizes"
@@ -38,7 +39,7 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
         caption: format!(
             "The time of a ray predicted from its counts by models fitted without the scene they are judged on (left out: \
              {left_out}; where the terms are chosen, what is left out had no say in that either). Error: \
-             |predicted/measured − 1| of {rows} times of a set of rays in a tree: median, mean, 90 % quantile, largest. Where a \
+             |predicted/measured − 1| of {rows} of a set of rays in a tree: median, mean, 90 % quantile, largest. Where a \
              model has one constant, it is the scale of the ratio c_K:c_t that its name gives. {ORDER}"
         ),
         columns: vec![
