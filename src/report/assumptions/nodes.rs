@@ -44,7 +44,7 @@ pub fn figure(
          1 where the metric is right. N rays hit the root's box ({}). Nodes with N p ≥ 25, at most 2,000 \
          nodes drawn; marks on the frame lie outside it. Colour: \
          distance of the node's centre from the root's, over half of the root's diagonal. C ×: tree cost counted over predicted; \
-         scatter of nodes ×/÷: a standard deviation of their ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
+         scatter ×/÷: a standard deviation of the nodes' ratios, sampling noise taken out; τ: Kendall's rank correlation of the \
          strategies' costs, predicted and counted. Seed {}.{}",
         summary.stop.as_deref().unwrap_or("unknown"),
         rays_each(run, sets),
@@ -221,7 +221,7 @@ fn summary_of(run: &Assumptions, set: &str, tree: (&str, &str)) -> String {
         row.and_then(|row| row.c)
             .map(|c| format!("C × {}", fixed(c, 2))),
         row.and_then(|row| row.spread)
-            .map(|s| format!("scatter of nodes ×/÷ {}", fixed(s.exp(), 2))),
+            .map(|s| format!("scatter ×/÷ {}", fixed(s.exp(), 2))),
         order
             .and_then(|row| row.tau)
             .map(|tau| format!("τ {}", fixed(tau, 1))),

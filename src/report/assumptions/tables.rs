@@ -281,3 +281,61 @@ pub fn short(run: &Assumptions) -> Table {
         rows: OfSet::all(run).into_iter().map(row).collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_screen_holds_the_widest_row() {
+        let rays = "sphere-hemisphere:nearest".to_owned();
+        let cell = "spd:a:1".to_owned();
+        let bias = BiasRecord {
+            cell: cell.clone(),
+            scene: cell.clone(),
+            strategy: "sah".into(),
+            rays: rays.clone(),
+            uniform: false,
+            inside: 0.5,
+            stopped: 0.5,
+            entered: 100,
+            visits: Some(100.5),
+            n_k: Some(100.5),
+            n_b: Some(100.5),
+            n_t: Some(100.5),
+            c: Some(100.5),
+            judged: 3,
+            spread: Some(3.0),
+            rank_correlation: Some(-0.5),
+        };
+        let order = OrderRecord {
+            scene: cell,
+            rays,
+            metric: "area".into(),
+            trees: 2,
+            tau: Some(-1.0),
+            right: 0,
+            wrong: 1,
+            tied: 0,
+            predicted_best: "sah".into(),
+            counted_best: "object-median".into(),
+            regret: Some(20.0),
+        };
+        let run = Assumptions {
+            bias: vec![bias],
+            groups: Vec::new(),
+            visits: Vec::new(),
+            orders: vec![order],
+            others: Vec::new(),
+            metrics: Vec::new(),
+            exact: Vec::new(),
+        };
+        let table = short(&run);
+        assert!(table.fits(100), "{}", table.to_text(100));
+        assert!(
+            table
+                .to_text(100)
+                .contains("not uniform + begin inside + stopped")
+        );
+    }
+}

@@ -38,8 +38,8 @@ pub fn shares(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let parts = Parts::of(run)?;
     let caption = format!(
         "Share of each chosen term in the predicted time of a ray, mean over scenes and trees, with constants fitted to all scenes; \
-         right: median of the measured times. {TERMS} Terms below {} % everywhere are other terms. {}",
-        fixed(100.0 * SMALLEST, 0),
+         right: median of the measured times. {TERMS}{} {}",
+        parts.remark(),
         provenance(run, summary.seed)
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
@@ -134,8 +134,10 @@ struct Parts<'r> {
     sets: Vec<&'r str>,
     /// Terms with a part of their own.
     terms: Vec<&'r str>,
-    /// Whether there are others.
+    /// Whether the others make a part that can be seen.
     others: bool,
+    /// How many terms there are in all.
+    all: usize,
 }
 
 impl<'r> Parts<'r> {
@@ -145,12 +147,30 @@ impl<'r> Parts<'r> {
             let own = run.shares.iter().filter(|row| row.term == *term);
             own.map(|row| row.share).fold(0.0, f64::max) >= SMALLEST
         };
-        let terms: Vec<&str> = all.into_iter().filter(large).collect();
+        let terms: Vec<&str> = all.iter().copied().filter(large).collect();
         (!terms.is_empty()).then(|| Self {
             sets: distinct(run.shares.iter().map(|row| row.rays.as_str())),
             others: others_show(run, &terms),
+            all: all.len(),
             terms,
         })
+    }
+
+    /// What became of the smallest terms, for the caption.
+    fn remark(&self) -> String {
+        if self.terms.len() == self.all {
+            return String::new();
+        }
+        let smallest = fixed(100.0 * SMALLEST, 0);
+        let fate = if self.others {
+            "are other terms".to_owned()
+        } else {
+            format!(
+                "make less than {} % together and are not drawn",
+                fixed(100.0 * SEEN, 1)
+            )
+        };
+        format!(" Terms below {smallest} % everywhere {fate}.")
     }
 
     /// The shares of a set: of the terms, and of all others together.
