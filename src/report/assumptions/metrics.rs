@@ -286,3 +286,42 @@ pub fn table(run: &Assumptions) -> Table {
         rows: rows.collect(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_pairs_that_were_compared_are_told() {
+        let pair = |rays: &str, metric: &str| MetricRecord {
+            scene: "a".into(),
+            strategy: "sah".into(),
+            rays: rays.into(),
+            metric: metric.into(),
+            suited: metric == "mailbox",
+            n_k: 1.0,
+            n_b: 1.0,
+            n_t: 1.0,
+            c: 2.0,
+            c_counted: 4.0,
+            ratio: Some(2.0),
+        };
+        let run = Assumptions {
+            bias: Vec::new(),
+            groups: Vec::new(),
+            visits: Vec::new(),
+            orders: Vec::new(),
+            others: Vec::new(),
+            metrics: vec![
+                pair("lines", AREA),
+                pair("lines with a mailbox", AREA),
+                pair("lines with a mailbox", "mailbox"),
+            ],
+            exact: Vec::new(),
+        };
+        let table = table(&run);
+        assert_eq!(table.rows.len(), 3);
+        assert_eq!(table.rows[2][2], Cell::Text("yes".into()));
+        assert_eq!(table.rows[2][3], Cell::Value(2.0, 3));
+    }
+}

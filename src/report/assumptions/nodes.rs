@@ -254,3 +254,45 @@ fn mosaic(pen: &Pen, points: impl Iterator<Item = ((f64, f64), f64)>) {
         pen.rectangle((x, y), corner, viridis(f64::from(shade) / SHADES));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::study::records::GroupRecord;
+
+    #[test]
+    fn the_line_of_groups_begins_where_it_enters_the_frame() {
+        let group = |p: f64, ratio: f64| GroupRecord {
+            scene: "a".into(),
+            strategy: "sah".into(),
+            rays: "lines".into(),
+            by: "area".into(),
+            lo: p.log10().floor(),
+            hi: p.log10().floor() + 1.0,
+            nodes: 4,
+            p_sum: 4.0 * p,
+            hits: 1,
+            entered: 1,
+            ratio: Some(ratio),
+            spread: None,
+        };
+        let mut run = Assumptions {
+            bias: Vec::new(),
+            // The middle between the first two, by logarithms, is p = 0.01 and a ratio of 2.
+            groups: vec![group(0.1, 1.0), group(0.001, 4.0), group(0.0001, 9.0)],
+            visits: Vec::new(),
+            orders: Vec::new(),
+            others: Vec::new(),
+            metrics: Vec::new(),
+            exact: Vec::new(),
+        };
+        let line = |run: &Assumptions| together(run, "lines", ("a", "sah"), (0.01, 1.0));
+        let found = line(&run);
+        assert_eq!(found.len(), 2);
+        assert_eq!((found[0].0, found[1]), (0.01, (0.1, 1.0)));
+        assert!((found[0].1 - 2.0).abs() < 1e-12, "{found:?}");
+        // One group alone makes no line.
+        run.groups.truncate(1);
+        assert!(line(&run).is_empty());
+    }
+}

@@ -1,7 +1,7 @@
 //! A run of this kind on one screen.
 
 use super::findings::NONE;
-use super::times::{constants, models};
+use super::times::{INTERVALS, constants, models};
 use super::{CostVsWork, work};
 use crate::report::table::{Table, fold};
 use crate::study::records::ModelRecord;
@@ -32,8 +32,9 @@ pub fn tables(run: &CostVsWork, width: usize) -> String {
         constants(run, |c| c.model == ModelRecord::CHOSEN),
         &["model"],
     );
-    let heading = "Nanoseconds of one of each chosen term, with the 95 % interval";
-    text + "\n" + &short(own, heading, 1).to_text(width)
+    let heading =
+        format!("Nanoseconds of one of each chosen term, with the 95 % interval ({INTERVALS})");
+    text + "\n" + &short(own, &heading, 1).to_text(width)
 }
 
 /// The table under a short heading.

@@ -208,3 +208,26 @@ impl<'r> Parts<'r> {
             .collect()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::report::cost_vs_work::fixture::trees;
+
+    #[test]
+    fn parts_that_cannot_be_seen_have_no_key() {
+        let mut run = trees();
+        let keys = |run: &CostVsWork| {
+            let parts = Parts::of(run).unwrap();
+            (parts.keys().len(), parts.remark())
+        };
+        let remark = " Terms below 2 % everywhere are other terms.".to_owned();
+        assert_eq!(keys(&run), (3, remark));
+        for row in &mut run.shares {
+            row.share /= 2.5;
+        }
+        let (number, remark) = keys(&run);
+        assert_eq!(number, 2);
+        assert!(remark.ends_with("make less than 0.5 % together and are not drawn."));
+    }
+}
