@@ -6,6 +6,7 @@ mod names;
 mod nodes;
 mod order;
 mod rows;
+mod screen;
 mod tables;
 mod totals;
 
@@ -107,6 +108,6 @@ impl Assumptions {
 
     /// The tables of the screen.
     pub(super) fn screen(&self, width: usize) -> String {
-        tables::short(self).to_text(width)
+        screen::table(self).to_text(width)
     }
 }

@@ -1,10 +1,12 @@
 //! The surface area metric beside those that give up an assumption: cost counted over expected, before and after.
 
+mod fit;
+
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::Assumptions;
 use super::rows::{HEADINGS, Rows};
-use super::tables::{arithmetic, geometric, value};
+use super::tables::{arithmetic, value};
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::{Figure, LEFT, WIDTH};
 use crate::report::legend::{Key, legend};
@@ -14,7 +16,9 @@ use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
-use crate::study::records::{MetricRecord, OrderRecord, Summary};
+use crate::study::records::Summary;
+pub use fit::AREA;
+use fit::{Fit, suited};
 
 const TITLE: &str = "Do metrics that give up an assumption predict such rays better?";
 /// What the names of metrics mean, for captions.
@@ -22,8 +26,6 @@ const METRICS: &str = "Metrics expect the counts of: interior, rays from anywher
                        stopped at their first hit; interior-occlusion, rays from inside, stopped; surface, rays from the objects' \
                        surfaces, stopped.";
 
-/// The surface area metric's name.
-pub const AREA: &str = "area";
 const BEFORE: Look = Look {
     colour: AXIS,
     marker: Marker::Disc,
@@ -35,63 +37,6 @@ const AFTER: Look = Look {
 /// Room for what stands at the right, and where its columns end.
 const NOTES: f64 = 186.0;
 const COLUMNS: [f64; 3] = [118.0, 59.0, 2.0];
-
-/// What one metric makes of one set of rays, over all trees.
-struct Fit<'r> {
-    metric: &'r str,
-    /// C counted over expected, of each tree.
-    ratios: Vec<f64>,
-    /// Of the strategies' order, of each scene.
-    taus: Vec<f64>,
-    /// What taking the tree that it expects to be cheapest costs above the cheapest, of each scene.
-    regrets: Vec<f64>,
-}
-
-impl<'r> Fit<'r> {
-    fn of(run: &'r Assumptions, set: &str, metric: &'r str) -> Self {
-        let own = |row: &&MetricRecord| row.rays == set && row.metric == metric;
-        let orders = || {
-            let own = |row: &&OrderRecord| row.rays == set && row.metric == metric;
-            run.orders.iter().chain(&run.others).filter(own)
-        };
-        let ratios = run.metrics.iter().filter(own).filter_map(|row| row.ratio);
-        Fit {
-            metric,
-            ratios: ratios.filter(|ratio| *ratio > 0.0).collect(),
-            taus: orders().filter_map(|row| row.tau).collect(),
-            regrets: orders().filter_map(|row| row.regret).collect(),
-        }
-    }
-
-    /// Least, geometric mean and largest ratio.
-    fn range(&self) -> Option<[f64; 3]> {
-        let (least, largest) = extent(self.ratios.iter().copied())?;
-        Some([least, geometric(&self.ratios)?, largest])
-    }
-
-    /// By what factor it errs in the mean: exp of the mean of |ln ratio|.
-    fn error(&self) -> Option<f64> {
-        let all: Vec<f64> = self.ratios.iter().map(|ratio| ratio.ln().abs()).collect();
-        arithmetic(&all).map(f64::exp)
-    }
-
-    /// Scatter of the ratios: exp of the standard deviation of ln ratio.
-    fn scatter(&self) -> Option<f64> {
-        let all: Vec<f64> = self.ratios.iter().map(|ratio| ratio.ln()).collect();
-        let mean = arithmetic(&all)?;
-        let squares: Vec<f64> = all.iter().map(|l| (l - mean) * (l - mean)).collect();
-        arithmetic(&squares).map(|variance| variance.sqrt().exp())
-    }
-}
-
-/// The metric that suits a set of rays.
-fn suited<'r>(run: &'r Assumptions, set: &str) -> &'r str {
-    let own = |row: &&MetricRecord| row.rays == set && row.suited;
-    run.metrics
-        .iter()
-        .find(own)
-        .map_or(AREA, |row| &*row.metric)
-}
 
 /// The figure of all sets.
 pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
@@ -290,6 +235,7 @@ pub fn table(run: &Assumptions) -> Table {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::study::records::MetricRecord;
 
     #[test]
     fn only_pairs_that_were_compared_are_told() {

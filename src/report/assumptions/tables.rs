@@ -23,14 +23,18 @@ pub fn value(value: Option<f64>, decimals: usize) -> Cell {
 }
 
 /// What is known of a set in all trees.
-struct OfSet<'r> {
-    set: &'r str,
-    bias: Vec<&'r BiasRecord>,
-    orders: Vec<&'r OrderRecord>,
+pub struct OfSet<'r> {
+    /// The set.
+    pub set: &'r str,
+    /// How far the metric errs, a row a tree.
+    pub bias: Vec<&'r BiasRecord>,
+    /// How it ranks the strategies, a row a scene.
+    pub orders: Vec<&'r OrderRecord>,
 }
 
 impl<'r> OfSet<'r> {
-    fn all(run: &'r Assumptions) -> Vec<Self> {
+    /// Every set of a run.
+    pub fn all(run: &'r Assumptions) -> Vec<Self> {
         let one = |set| OfSet {
             set,
             bias: run.bias.iter().filter(|row| row.rays == set).collect(),
@@ -46,7 +50,7 @@ impl<'r> OfSet<'r> {
     }
 
     /// Least, geometric mean and largest.
-    fn range(&self, of: fn(&BiasRecord) -> Option<f64>) -> [Option<f64>; 3] {
+    pub fn range(&self, of: fn(&BiasRecord) -> Option<f64>) -> [Option<f64>; 3] {
         let all = self.ratios(of);
         [
             all.iter().copied().reduce(f64::min),
@@ -55,7 +59,8 @@ impl<'r> OfSet<'r> {
         ]
     }
 
-    fn scatter(&self) -> Option<f64> {
+    /// Mean scatter of single nodes, a factor.
+    pub fn scatter(&self) -> Option<f64> {
         geometric(&self.ratios(|row| row.spread.map(f64::exp)))
     }
 
@@ -64,7 +69,8 @@ impl<'r> OfSet<'r> {
         arithmetic(&own.collect::<Vec<_>>())
     }
 
-    fn taus(&self) -> Vec<f64> {
+    /// Rank correlations of the scenes.
+    pub fn taus(&self) -> Vec<f64> {
         self.orders.iter().filter_map(|row| row.tau).collect()
     }
 
@@ -73,7 +79,7 @@ impl<'r> OfSet<'r> {
     }
 
     /// Mean and worst, in per cent, and where.
-    fn regret(&self) -> (Option<f64>, Option<(f64, &'r str)>) {
+    pub fn regret(&self) -> (Option<f64>, Option<(f64, &'r str)>) {
         let percent = |row: &&&'r OrderRecord| {
             let regret = row.regret?;
             Some((percent_above(1.0 + regret), &*row.scene))
@@ -247,95 +253,5 @@ pub fn exact(run: &Assumptions) -> Table {
         columns,
         keys: 4,
         rows: run.exact.iter().map(row).collect(),
-    }
-}
-
-/// The main figures of every set.
-pub fn short(run: &Assumptions) -> Table {
-    let columns = vec![
-        Column::left("rays", "rays"),
-        Column::left("breaks", "breaks"),
-        Column::right("C", "c"),
-        Column::right("nodes ×/÷", "scatter"),
-        Column::right("τ", "tau"),
-        Column::right("regret, %", "regret"),
-    ];
-    let row = |of: OfSet| {
-        let [_, mean, _] = of.range(|row| row.c);
-        vec![
-            Cell::Text(of.set.to_owned()),
-            Cell::Text(Broken::of(&run.bias, of.set).words()),
-            value(mean, 2),
-            value(of.scatter(), 2),
-            value(arithmetic(&of.taus()), 2),
-            value(of.regret().0, 1),
-        ]
-    };
-    Table {
-        caption: "Tree cost C counted over predicted: geometric mean over all trees. Nodes ×/÷: scatter of single nodes. \
-                  τ: rank correlation of the strategies' costs predicted and counted, mean over the scenes. Regret: what the tree \
-                  predicted to be cheapest costs above the cheapest, mean over the scenes."
-            .to_owned(),
-        columns,
-        keys: 1,
-        rows: OfSet::all(run).into_iter().map(row).collect(),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_screen_holds_the_widest_row() {
-        let rays = "sphere-hemisphere:nearest".to_owned();
-        let cell = "spd:a:1".to_owned();
-        let bias = BiasRecord {
-            cell: cell.clone(),
-            scene: cell.clone(),
-            strategy: "sah".into(),
-            rays: rays.clone(),
-            uniform: false,
-            inside: 0.5,
-            stopped: 0.5,
-            entered: 100,
-            visits: Some(100.5),
-            n_k: Some(100.5),
-            n_b: Some(100.5),
-            n_t: Some(100.5),
-            c: Some(100.5),
-            judged: 3,
-            spread: Some(3.0),
-            rank_correlation: Some(-0.5),
-        };
-        let order = OrderRecord {
-            scene: cell,
-            rays,
-            metric: "area".into(),
-            trees: 2,
-            tau: Some(-1.0),
-            right: 0,
-            wrong: 1,
-            tied: 0,
-            predicted_best: "sah".into(),
-            counted_best: "object-median".into(),
-            regret: Some(20.0),
-        };
-        let run = Assumptions {
-            bias: vec![bias],
-            groups: Vec::new(),
-            visits: Vec::new(),
-            orders: vec![order],
-            others: Vec::new(),
-            metrics: Vec::new(),
-            exact: Vec::new(),
-        };
-        let table = short(&run);
-        assert!(table.fits(100), "{}", table.to_text(100));
-        assert!(
-            table
-                .to_text(100)
-                .contains("not uniform + begin inside + stopped")
-        );
     }
 }
