@@ -98,9 +98,12 @@ pub fn is_own(choice: &StrategyChoiceRecord) -> bool {
 /// meets the scene or all cost the same.
 pub fn advice(choice: &StrategyChoiceRecord) -> String {
     let c = choice;
-    let rays = format!("{} ({})", c.rays, counted(c.cast, "ray"));
+    let rays = counted(c.cast, "ray");
     if c.least_c_counted.is_nan() || c.least_c_counted <= 0.0 {
-        return format!("For {rays}: no ray meets the scene: nothing to compare.");
+        return format!(
+            "For {}, {rays}: no ray meets the scene: nothing to compare.",
+            c.rays
+        );
     }
     let lost = loss(c);
     let same = lost.is_some_and(|loss| loss < EQUAL);
@@ -122,12 +125,14 @@ pub fn advice(choice: &StrategyChoiceRecord) -> String {
     };
     if undecided(c) {
         return format!(
-            "For {rays} there is nothing to choose: predicted or counted, all strategies cost the same. {take} is predicted to \
-             cost {predicted} a ray and counted at {cost}: {trust}."
+            "For {} there is nothing to choose: predicted or counted, all strategies cost the same. {take} is predicted to \
+             cost {predicted} a ray and counted at {cost} over {rays}: {trust}.",
+            c.rays
         );
     }
     format!(
-        "For {rays} take {take}, predicted to cost {predicted} a ray and counted at {cost}: {trust}."
+        "For {} take {take}, predicted to cost {predicted} a ray and counted at {cost} over {rays}: {trust}.",
+        c.rays
     )
 }
 
@@ -193,14 +198,14 @@ mod tests {
         };
         assert_eq!(
             with(Some(0.95), 100.0, 99.0, 99.0),
-            "For own:nearest (1,000 rays) take sah, predicted to cost 100.0 a ray and counted at 99.00: trust the prediction for the choice \
+            "For own:nearest take sah, predicted to cost 100.0 a ray and counted at 99.00 over 1,000 rays: trust the prediction for the choice \
              of a strategy (sah, none is better), the order of all 3 (Kendall's tau 0.95) and the cost (counted is 0.990 times \
              it)."
         );
         let order = with(Some(0.95), 100.0, 50.0, 49.0);
         assert_eq!(
             order,
-            "For own:nearest (1,000 rays) take sah-cyclic, predicted to cost 120.0 a ray and counted at 49.00: trust the prediction for the \
+            "For own:nearest take sah-cyclic, predicted to cost 120.0 a ray and counted at 49.00 over 1,000 rays: trust the prediction for the \
              choice of a strategy (sah, 2.0 % above the best) and the order of all 3 (Kendall's tau 0.95), not for the cost \
              (counted is 0.500 times it)."
         );
@@ -212,13 +217,13 @@ mod tests {
         let equal = with(None, 100.0, 100.0, 100.0);
         assert_eq!(
             equal,
-            "For own:nearest (1,000 rays) there is nothing to choose: predicted or counted, all strategies cost the same. sah is \
-             predicted to cost 100.0 a ray and counted at 100.0: trust the prediction for the cost (counted is 1.00 times it)."
+            "For own:nearest there is nothing to choose: predicted or counted, all strategies cost the same. sah is \
+             predicted to cost 100.0 a ray and counted at 100.0 over 1,000 rays: trust the prediction for the cost (counted is 1.00 times it)."
         );
         // Rays that meet no tree.
         assert_eq!(
             with(None, 100.0, 0.0, 0.0),
-            "For own:nearest (1,000 rays): no ray meets the scene: nothing to compare."
+            "For own:nearest, 1,000 rays: no ray meets the scene: nothing to compare."
         );
     }
 
