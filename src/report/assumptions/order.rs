@@ -33,8 +33,8 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let caption = format!(
         "Numbers: by how many per cent the tree that the metric takes for the cheapest is dearer, counted, than the cheapest, of \
          strategies {}, stop {}; 0: the metric's choice is best. Colour: Kendall's τ of their costs predicted and counted, 1: the \
-         same order. Red dot: at least one pair of trees is ranked wrongly although the rays tell them apart (99 % interval of the \
-         difference of their costs over the same rays). Empty: the scene has no such rays. Blue dots: assumptions \
+         same order. Red dot: at least one pair of trees is ranked wrongly although the rays tell them apart (99 % intervals of the \
+         differences of their costs over the same rays). Empty: the scene has no such rays. Blue dots: assumptions \
          that the rays break. Seed {}.",
         strategies.join(", "),
         summary.stop.as_deref().unwrap_or("unknown"),

@@ -204,7 +204,7 @@ pub fn order(run: &Assumptions) -> Table {
     };
     Table {
         caption: "The strategies ranked by predicted and by counted cost, scene by scene. τ: Kendall's rank correlation. Order survives: \
-                  scenes where no pair of trees is ranked wrongly of those that the rays tell apart (99 % interval of the difference of \
+                  scenes where no pair of trees is ranked wrongly of those that the rays tell apart (99 % intervals of the differences of \
                   their costs over the same rays). Cheapest found: scenes where the tree predicted to be cheapest is the cheapest \
                   counted. Regret: by how much it is dearer than that."
             .to_owned(),

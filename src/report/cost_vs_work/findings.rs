@@ -137,41 +137,46 @@ fn step(run: &CostVsWork) -> Option<String> {
     })
 }
 
-/// What came of an expectation; without one, the numbers alone. Beside it, the model of n_K and n_t.
+/// What came of an expectation; without one, the numbers alone. Beside it, the model of n_K and n_t. `None` where nothing could be
+/// compared.
 fn judged(run: &CostVsWork, name: &str) -> Option<String> {
-    let numbers = |m: &ModelRecord| match name {
-        "time-error" => format!(
-            "median relative error {} %, mean {} %, worst {} %",
-            tenths(m.error_median),
-            tenths(m.error_mean),
-            tenths(m.error_max)
-        ),
-        "time-order" => format!(
-            "Kendall's tau between predicted and measured times of a scene's trees {} in the mean, {} % of pairs in the right order",
-            fixed(m.tau.unwrap_or(f64::NAN), 3),
-            tenths(m.pairs_right.unwrap_or(f64::NAN))
-        ),
-        _ => format!(
-            "the tree of least predicted time takes {} % more than the fastest in the mean, {} % at worst",
-            tenths(m.regret_mean.unwrap_or(f64::NAN)),
-            tenths(m.regret_max.unwrap_or(f64::NAN))
-        ),
+    let numbers = |m: &ModelRecord| {
+        Some(match name {
+            "time-error" => format!(
+                "median relative error {} %, mean {} %, worst {} %",
+                tenths(m.error_median),
+                tenths(m.error_mean),
+                tenths(m.error_max)
+            ),
+            "time-order" => format!(
+                "Kendall's tau between predicted and measured times of a scene's trees {} in the mean, {} % of pairs in the right \
+                 order",
+                fixed(m.tau?, 3),
+                tenths(m.pairs_right?)
+            ),
+            _ => format!(
+                "the tree of least predicted time takes {} % more than the fastest in the mean, {} % at worst",
+                tenths(m.regret_mean?),
+                tenths(m.regret_max?)
+            ),
+        })
     };
-    let chosen = model(run, ModelRecord::CHOSEN)?;
     let expected = run.time_verdicts.verdicts.iter().find(|v| v.name == name);
     let found = match expected {
         Some(v) => {
             let held = if v.held { "held" } else { "missed" };
             format!("{}: **{held}**", v.message)
         }
-        None => format!("By chosen terms: {}", numbers(chosen)),
+        None => format!(
+            "By chosen terms: {}",
+            numbers(model(run, ModelRecord::CHOSEN)?)?
+        ),
     };
-    let two = model(run, ModelRecord::TWO)?;
-    Some(format!(
-        "{}. By n_K and n_t alone: {}.",
-        capitalised(&found),
-        numbers(two)
-    ))
+    let two = numbers(model(run, ModelRecord::TWO)?);
+    let beside = two.map_or(String::new(), |two| {
+        format!(" By n_K and n_t alone: {two}.")
+    });
+    Some(format!("{}.{beside}", capitalised(&found)))
 }
 
 fn tenths(share: f64) -> String {

@@ -176,6 +176,13 @@ fn findings_are_made_from_the_numbers() {
         text.contains("at least 0.93:1, without an upper bound"),
         "{text}"
     );
+    // Without two trees of a scene there is no order.
+    for model in &mut run.models {
+        (model.tau, model.pairs_right) = (None, None);
+    }
+    assert!(!findings::findings(&run).contains("Kendall's tau between predicted and measured"));
+    let table = times::models(&run, |_| true);
+    assert_eq!(table.rows[0][7..9], [Cell::Missing, Cell::Missing]);
     run.models.clear();
     let none = findings::findings(&run);
     assert!(none.starts_with("No constants were fitted"), "{none}");

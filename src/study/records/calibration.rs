@@ -24,7 +24,8 @@ pub struct ModelRecord {
     pub error_p90: f64,
     /// Its largest value.
     pub error_max: f64,
-    /// Mean over scenes and sets of rays of Kendall's tau-b between predicted and measured time of the trees.
+    /// Mean over scenes and sets of rays of Kendall's tau-b between predicted and measured time of the trees; this and what follows is empty
+    /// where no scene has two trees to compare.
     pub tau: Option<f64>,
     /// Share of pairs of trees of a scene that are put into the right order.
     pub pairs_right: Option<f64>,

@@ -22,10 +22,10 @@ pub fn models(run: &CostVsWork, wanted: impl Fn(&&ModelRecord) -> bool) -> Table
             percent(m.error_mean),
             percent(m.error_p90),
             percent(m.error_max),
-            tau(m.tau.unwrap_or(f64::NAN)),
-            percent(m.pairs_right.unwrap_or(f64::NAN)),
-            percent(m.regret_mean.unwrap_or(f64::NAN)),
-            percent(m.regret_max.unwrap_or(f64::NAN)),
+            known(m.tau, tau),
+            known(m.pairs_right, percent),
+            known(m.regret_mean, percent),
+            known(m.regret_max, percent),
         ]
     };
     let rows = counted(run.models.first().map_or(0, |m| m.rows), "time");
