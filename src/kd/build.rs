@@ -33,6 +33,25 @@ pub struct Rules {
     pub clipped: bool,
 }
 
+impl Rules {
+    /// Every strategy under every stop rule: strategies follow each other, stop rule by stop rule.
+    pub fn crossed(
+        stops: &[StopRule],
+        strategies: &[Strategy],
+        cost: CostModel,
+        clipped: bool,
+    ) -> Vec<Self> {
+        let rules = |stop: StopRule, strategy: Strategy| Self {
+            strategy,
+            stop,
+            cost,
+            clipped,
+        };
+        let under = |&stop: &StopRule| strategies.iter().map(move |&s| rules(stop, s));
+        stops.iter().flat_map(under).collect()
+    }
+}
+
 /// Build a tree over objects given by their boxes, with `world` around them all.
 ///
 /// # Panics

@@ -17,9 +17,10 @@ use crate::geom::Cast;
 use crate::kd::{Ask, NoProbe, Rules, Stack, Tree};
 use crate::scene::Scene;
 
-use super::hits::cell::build_tree;
+use super::hits::cell::{CellPlan, build_tree};
 use super::plan::{Wrong, wrong_unless};
 use super::records::PassTiming;
+use super::store::{Store, StoreError, TIMINGS};
 
 /// What a row of builds is called.
 pub const BUILD: &str = "build";
@@ -302,6 +303,27 @@ fn build_row(seconds: &[f64], timing: Timing) -> PassTiming {
 
 fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > DISTURBED * a.min(b)
+}
+
+/// Put the rows of trees in place of older ones of the same trees; rows of other runs stay.
+pub fn keep<'a>(
+    store: &Store,
+    trees: impl Iterator<Item = &'a CellPlan<'a>> + Clone,
+    rows: Vec<Vec<PassTiming>>,
+) -> Result<(), StoreError> {
+    let mut all: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    all.retain(|row| trees.clone().all(|tree| tree.id != row.cell));
+    for (tree, rows) in trees.zip(rows) {
+        all.extend(rows.into_iter().map(|row| PassTiming {
+            cell: tree.id.clone(),
+            scene: tree.scene.name.clone(),
+            strategy: tree.rules.strategy.name(),
+            stop: tree.rules.stop.to_string(),
+            ..row
+        }));
+    }
+    store.write_rows(TIMINGS, all)?;
+    Ok(())
 }
 
 /// A row that says how it was measured and nothing else.

@@ -2,10 +2,10 @@
 //!
 //! Take an isotropic line with chord [0, L] in the root, of which [a, b] lies in node N. A ray from a uniform point of the
 //! root in an isotropic direction is such a line, drawn in proportion to L, with its origin uniform in [0, L]: it hits N if
-//! the origin lies before b. Hence P = E[b; line hits N] / E[L], or by reversal E[L - a; line hits N] / E[L]; E[L] = 4V/SA.
+//! the origin lies before b. Hence P = E(b; line hits N) / E(L), or by reversal E(L - a; line hits N) / E(L); E(L) = 4V/SA.
 //! Two uniform points lie on a line drawn in proportion to L^4 (their density on it is the square of their distance), and
-//! the segment between them misses N if both lie in [0, a] or both in [b, L]: P = E[L^4 - a^4 - (L - b)^4; line hits N] /
-//! E[L^4], with E[L^4] = 12 V^2 / (pi SA). Source: Santalo, "Integral Geometry and Geometric Probability" (1976), 4.2; Kingman,
+//! the segment between them misses N if both lie in [0, a] or both in [b, L]: P = E(L^4 - a^4 - (L - b)^4; line hits N) /
+//! E(L^4), with E(L^4) = 12 V^2 / (pi SA). Source: Santalo, "Integral Geometry and Geometric Probability" (1976), 4.2; Kingman,
 //! "Random secants of a convex body" (J. Appl. Prob. 6, 1969).
 //!
 //! So lines that have nothing to do with the counted rays, and boxes that no tree was walked for, give what each node must

@@ -5,13 +5,13 @@ use std::ops::Range;
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::kd::{Rules, StopRule, Strategy, Tree, predict};
+use crate::kd::{Rules, Tree, predict};
 use crate::scene::Scene;
 use crate::study::hits::cell::{CellPlan, compare, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::ray_sets::{Number, Rays, gather};
 use crate::study::records::{CellRecord, PassTiming, StepRecord, WorkRecord};
-use crate::study::store::{Store, StoreError, TIMINGS};
+use crate::study::store::Store;
 use crate::study::timing::{CHUNK, Pass, Timed, blank, trace_times};
 use crate::study::{Plan, RunError, Watcher, timing, work};
 
@@ -31,15 +31,7 @@ pub struct Measured {
 
 /// The trees of a scene in canonical order: stop rules, then strategies.
 pub fn of_scene<'a>(plan: &Plan, asked: &CostVsWork, scene: &'a Scene) -> Vec<CellPlan<'a>> {
-    let rules = |stop: StopRule, strategy: Strategy| Rules {
-        strategy,
-        stop,
-        cost: plan.cost,
-        clipped: asked.clipped,
-    };
-    let stops = asked.stops.iter();
-    let all = stops.flat_map(|&stop| asked.strategies.iter().map(move |&s| rules(stop, s)));
-    let all: Vec<Rules> = all.collect();
+    let all = Rules::crossed(&asked.stops, &asked.strategies, plan.cost, asked.clipped);
     let mut plans = CellPlan::of_scene(scene, &all, plan.seed, asked.lines);
     // What the rays depend on besides the boxes, and what is timed of them on the other trees.
     let seen = whole(scene);
@@ -189,7 +181,7 @@ pub fn measure(
     let rows = trace_times(scene, &trees, passes, rule(asked), plan.seed, || {
         watcher.done(cells.len() as u64);
     });
-    keep_times(store, cells, rows)?;
+    timing::keep(store, cells.iter(), rows)?;
     Ok(measured)
 }
 
@@ -223,27 +215,6 @@ fn named(row: &WorkRecord) -> StepRecord {
         rays: row.rays.clone(),
         ..StepRecord::default()
     }
-}
-
-/// Put the seconds of a scene's trees in place of older ones; rows of other runs stay.
-fn keep_times(
-    store: &Store,
-    cells: &[CellPlan],
-    passes: Vec<Vec<PassTiming>>,
-) -> Result<(), StoreError> {
-    let mut rows: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    rows.retain(|row| cells.iter().all(|cell| cell.id != row.cell));
-    for (cell, passes) in cells.iter().zip(passes) {
-        rows.extend(passes.into_iter().map(|row| PassTiming {
-            cell: cell.id.clone(),
-            scene: cell.scene.name.clone(),
-            strategy: cell.rules.strategy.name(),
-            stop: cell.rules.stop.to_string(),
-            ..row
-        }));
-    }
-    store.write_rows(TIMINGS, rows)?;
-    Ok(())
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@ use crate::scene::{Look, Scene};
 use crate::study::hits::cell::{CellPlan, compare, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::records::{CellRecord, PassTiming, RayRecord};
-use crate::study::store::{Store, StoreError, TIMINGS};
+use crate::study::store::Store;
 use crate::study::timing::Timed;
 use crate::study::{Plan, RunError, Watcher, timing};
 use crate::tracer::{RayCounts, RayKind, RaySet, count, trace};
@@ -43,15 +43,7 @@ pub fn of_scene<'a>(plan: &Plan, asked: &Strategies, scene: &'a Scene) -> Vec<Tr
     };
     // What the rays depend on besides the boxes.
     let seen = whole(scene);
-    let rules = |stop: StopRule, strategy: Strategy| Rules {
-        strategy,
-        stop,
-        cost: plan.cost,
-        clipped: asked.clipped,
-    };
-    let stops = asked.stops.iter();
-    let all = stops.flat_map(|&stop| asked.strategies.iter().map(move |&s| rules(stop, s)));
-    let all: Vec<Rules> = all.collect();
+    let all = Rules::crossed(&asked.stops, &asked.strategies, plan.cost, asked.clipped);
     let cell = |mut plan: CellPlan<'a>| {
         let identity = format!("{} {seen} {} {}", plan.id, asked.pixels, asked.checked);
         plan.id = digest(identity.as_bytes());
@@ -176,7 +168,11 @@ pub fn measure(
     let passes = timing::trace_times(scene, &trees, passes, asked.timing, plan.seed, || {
         watcher.done(cells.len() as u64);
     });
-    keep_times(store, cells, builds, passes)?;
+    let rows = builds.into_iter().zip(passes).map(|(build, mut passes)| {
+        passes.insert(0, build);
+        passes
+    });
+    timing::keep(store, cells.iter().map(|cell| &cell.plan), rows.collect())?;
     Ok(studied)
 }
 
@@ -278,27 +274,4 @@ impl<'a> Probes<'a> {
         }
         Ok(())
     }
-}
-
-/// Put the seconds of a scene's trees in place of older ones; rows of other runs stay.
-fn keep_times(
-    store: &Store,
-    cells: &[TreeCell],
-    builds: Vec<PassTiming>,
-    passes: Vec<Vec<PassTiming>>,
-) -> Result<(), StoreError> {
-    let mut rows: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    rows.retain(|row| cells.iter().all(|cell| cell.plan.id != row.cell));
-    for ((cell, build), passes) in cells.iter().zip(builds).zip(passes) {
-        let all = std::iter::once(build).chain(passes);
-        rows.extend(all.map(|row| PassTiming {
-            cell: cell.plan.id.clone(),
-            scene: cell.plan.scene.name.clone(),
-            strategy: cell.plan.rules.strategy.name(),
-            stop: cell.plan.rules.stop.to_string(),
-            ..row
-        }));
-    }
-    store.write_rows(TIMINGS, rows)?;
-    Ok(())
 }
