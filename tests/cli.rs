@@ -445,6 +445,7 @@ fn lists_and_help() {
     list("scenes").stdout(contains("simple:greedy").and(contains("spd:balls")));
     list("strategies").stdout(contains("median-midpoint-longest"));
     list("samplers").stdout(contains("axes-only"));
+    list("rays").stdout(contains("beam").and(contains("secondary")));
     list("experiments").stdout(contains("experiments/figure3.toml"));
     validate(folder.path())
         .arg("list")

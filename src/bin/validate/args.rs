@@ -131,7 +131,7 @@ pub enum Command {
         #[arg(long)]
         clipped: bool,
     },
-    /// What can be named: scenes, strategies, samplers, experiments.
+    /// What can be named: scenes, strategies, samplers, rays, experiments.
     List {
         /// Only this list.
         what: Option<Listed>,
@@ -187,6 +187,8 @@ pub enum Listed {
     Strategies,
     /// Samplers of lines.
     Samplers,
+    /// Sets of rays.
+    Rays,
     /// Experiments that come with the program.
     Experiments,
 }

@@ -18,11 +18,12 @@ use clap::Parser;
 use sahlab::cost::CostModel;
 use sahlab::files::write_atomic;
 use sahlab::kd::{Rules, Strategy};
-use sahlab::rays::LineLaw;
+use sahlab::rays::{LineLaw, Source};
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
 use sahlab::study::plan::{Overrides, PlanError};
 use sahlab::study::{self, Plan};
+use sahlab::tracer::RayKind;
 
 use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
@@ -282,6 +283,16 @@ fn list(what: Option<Listed>) -> String {
         Listed::Samplers,
         "samplers of lines (wrong ones are negative controls)",
         laws.collect(),
+    );
+    let sources = Source::all().map(|s| (s.name().into(), s.description().into()));
+    let kinds = RayKind::ALL.map(|kind| {
+        let about = "a picture's rays of this kind, of scenes with a camera and lights";
+        (kind.name().into(), about.into())
+    });
+    section(
+        Listed::Rays,
+        "rays (SOURCE: nothing stops them; SOURCE:nearest, SOURCE:any: up to their first, or any, hit; wrong: not the metric's)",
+        sources.chain(kinds).collect(),
     );
     let about = |text: &str| {
         text.lines()
