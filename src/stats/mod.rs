@@ -34,6 +34,6 @@ pub use moments::ScoreMoments;
 pub use multiple::holm;
 pub use normal_equations::Normal;
 pub use quantile::{median, quantile, quantile_of_sorted};
-pub use rank::{Pairs, concordant, kendall_tau_b, spearman_rho};
+pub use rank::{Pairs, Taken, concordant, kendall_tau_b, spearman_rho, take_least};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
 pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};

@@ -39,6 +39,38 @@ pub fn kendall_tau_b(a: &[f64], b: &[f64]) -> Option<f64> {
     (scale > 0.0).then(|| (right as f64 - wrong as f64) / scale)
 }
 
+/// Which thing one takes who goes by a prediction, and what it costs.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Taken {
+    /// Number of the thing of the least predicted cost; of several the first.
+    pub taken: usize,
+    /// Number of the cheapest thing; of several the first.
+    pub cheapest: usize,
+    /// By what share the thing taken costs more than the cheapest: 0 where it costs the same; `None` where the cheapest costs
+    /// nothing and it something.
+    pub regret: Option<f64>,
+}
+
+/// Take the thing of the least predicted cost; `None` without things. No cost is negative.
+///
+/// # Panics
+/// If the lengths differ or a value is NaN.
+pub fn take_least(predicted: &[f64], cost: &[f64]) -> Option<Taken> {
+    check(predicted, cost);
+    let least = |of: &[f64]| (0..of.len()).min_by(|&i, &j| of[i].total_cmp(&of[j]));
+    let (taken, cheapest) = (least(predicted)?, least(cost)?);
+    let regret = if cost[taken] == cost[cheapest] {
+        0.0
+    } else {
+        cost[taken] / cost[cheapest] - 1.0
+    };
+    Some(Taken {
+        taken,
+        cheapest,
+        regret: regret.is_finite().then_some(regret),
+    })
+}
+
 /// Spearman's rho: the correlation of the ranks, tied values sharing the mean of theirs. `None` where one side is
 /// constant, so also for less than two things.
 ///
@@ -103,6 +135,21 @@ mod tests {
     fn close(found: Option<f64>, expected: f64) {
         let found = found.unwrap();
         assert!((found - expected).abs() < 1e-15, "{found} not {expected}");
+    }
+
+    #[test]
+    fn what_is_taken_and_what_it_costs() {
+        let found = take_least(&[2.0, 1.0, 1.0], &[4.0, 5.0, 4.0]);
+        let wanted = Taken {
+            taken: 1,
+            cheapest: 0,
+            regret: Some(0.25),
+        };
+        assert_eq!(found, Some(wanted));
+        assert_eq!(take_least(&[], &[]), None);
+        let regret = |predicted: &[f64], cost: &[f64]| take_least(predicted, cost)?.regret;
+        assert_eq!(regret(&[1.0, 2.0], &[0.0, 0.0]), Some(0.0));
+        assert_eq!(regret(&[1.0, 2.0], &[3.0, 0.0]), None);
     }
 
     #[test]

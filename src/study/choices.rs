@@ -1,6 +1,6 @@
 //! Which strategy to take for which rays, by areas and by counts.
 
-use crate::stats::kendall_tau_b;
+use crate::stats::{Taken, kendall_tau_b, take_least};
 
 use super::records::{StrategyChoiceRecord, WorkRecord};
 
@@ -18,16 +18,12 @@ pub fn choices(work: &[WorkRecord]) -> Vec<StrategyChoiceRecord> {
 }
 
 fn choice(trees: &[&WorkRecord]) -> Option<StrategyChoiceRecord> {
-    let least = |cost: fn(&WorkRecord) -> f64| {
-        let by_cost = |a: &&&WorkRecord, b: &&&WorkRecord| cost(a).total_cmp(&cost(b));
-        trees.iter().min_by(by_cost)
-    };
-    let costs = |cost: fn(&WorkRecord) -> f64| trees.iter().map(|t| cost(t)).collect::<Vec<_>>();
-    let (predicted, counted) = (
-        (|t: &WorkRecord| t.c_predicted) as fn(&_) -> _,
-        |t: &WorkRecord| t.c_counted,
-    );
-    let (chosen, best) = least(predicted).zip(least(counted))?;
+    let predicted: Vec<f64> = trees.iter().map(|tree| tree.c_predicted).collect();
+    let counted: Vec<f64> = trees.iter().map(|tree| tree.c_counted).collect();
+    let Taken {
+        taken, cheapest, ..
+    } = take_least(&predicted, &counted)?;
+    let (chosen, best) = (trees[taken], trees[cheapest]);
     Some(StrategyChoiceRecord {
         scene: chosen.scene.clone(),
         stop: chosen.stop.clone(),
@@ -35,7 +31,7 @@ fn choice(trees: &[&WorkRecord]) -> Option<StrategyChoiceRecord> {
         ask: chosen.ask.clone(),
         cast: chosen.cast,
         strategies: trees.len() as u64,
-        kendall_tau: kendall_tau_b(&costs(predicted), &costs(counted)),
+        kendall_tau: kendall_tau_b(&predicted, &counted),
         predicted: chosen.strategy.clone(),
         predicted_c_predicted: chosen.c_predicted,
         predicted_c_counted: chosen.c_counted,

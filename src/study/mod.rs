@@ -10,6 +10,7 @@ pub mod plan;
 pub mod ray_sets;
 pub mod record;
 pub mod records;
+pub mod resume;
 pub mod split_cost;
 pub mod store;
 pub mod strategies;

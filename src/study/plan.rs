@@ -17,7 +17,7 @@ use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
 use crate::cost::CostModel;
-use crate::kd::Strategy;
+use crate::kd::{StopRule, Strategy};
 
 use super::assumptions::Assumptions;
 use super::cost_vs_work::CostVsWork;
@@ -380,6 +380,19 @@ pub(super) fn check_strategies(strategies: &[Strategy]) -> Result<(), Wrong> {
     for &strategy in strategies {
         wrong_unless(seen.insert(strategy), "strategies", || {
             format!("strategy '{strategy}' is named twice")
+        })?;
+    }
+    Ok(())
+}
+
+/// At least one stop rule, none twice.
+pub(super) fn check_stops(stops: &[StopRule]) -> Result<(), Wrong> {
+    wrong_unless(!stops.is_empty(), "stops", || {
+        "stops must name at least one rule".into()
+    })?;
+    for (i, stop) in stops.iter().enumerate() {
+        wrong_unless(!stops[..i].contains(stop), "stops", || {
+            format!("stop rule '{stop}' is named twice")
         })?;
     }
     Ok(())

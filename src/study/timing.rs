@@ -20,6 +20,7 @@ use crate::scene::Scene;
 use super::hits::cell::{CellPlan, build_tree};
 use super::plan::{Wrong, wrong_unless};
 use super::records::PassTiming;
+use super::resume::Extent;
 use super::store::{Store, StoreError, TIMINGS};
 
 /// What a row of builds is called.
@@ -47,6 +48,14 @@ pub struct Timing {
 }
 
 impl Timing {
+    /// What so many trees amount to: their counts, and each round of their times.
+    pub(super) fn extent(&self, trees: usize) -> Extent {
+        Extent {
+            things: trees,
+            units: trees as u64 * u64::from(1 + self.rounds),
+        }
+    }
+
     /// Whether the values make sense together.
     pub fn check(&self) -> Result<(), Wrong> {
         let Self {

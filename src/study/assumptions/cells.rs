@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use crate::kd::expect::Parts;
 use crate::kd::predict;
 use crate::scene::Scene;
 use crate::study::hits::cell::{CellPlan, plant};
@@ -60,6 +61,8 @@ impl Found {
 
 /// The trees of a scene, and the identity of all that is measured of it.
 pub struct SceneCell<'a> {
+    /// The scene.
+    pub scene: &'a Scene,
     /// Identity.
     pub id: String,
     /// A tree each.
@@ -82,6 +85,7 @@ impl<'a> SceneCell<'a> {
             asked.sizes(),
         );
         Self {
+            scene,
             id: digest(text.as_bytes()),
             trees,
         }
@@ -94,10 +98,10 @@ impl<'a> SceneCell<'a> {
 /// If the program contradicts itself.
 pub fn measure(
     asked: &Assumptions,
-    scene: &Scene,
     cell: &SceneCell<'_>,
     watcher: &impl Watcher,
 ) -> Result<Found, String> {
+    let scene = cell.scene;
     let seed = cell.trees.first().map_or(0, |tree| tree.line_seed);
     let sets = gather(scene, &asked.rays, asked.sizes(), seed)?;
     let mut found = Found {
@@ -115,7 +119,8 @@ pub fn measure(
     for plan in &cell.trees {
         let (tree, _) = plant(scene, &plan.rules)?;
         let prediction = predict(&tree);
-        let expected = metrics::expected(scene, &tree);
+        let parts = Parts::new(&tree, &scene.objects, &scene.bounds);
+        let expected = metrics::expected(&tree, &parts);
         let places = Places::of(&tree, &prediction);
         let mut own = Vec::new();
         for rays in &sets {
@@ -134,7 +139,7 @@ pub fn measure(
             found.add(asked, &one);
             let rows = metrics::records(plan, rays, &visits, &expected);
             found.metrics.extend(rows);
-            let rows = mailbox::records(scene, plan, &tree, rays);
+            let rows = mailbox::records(plan, &tree, &parts, rays);
             found.metrics.extend(rows);
             own.push(visits.costs);
         }

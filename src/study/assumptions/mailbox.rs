@@ -5,7 +5,6 @@ use rayon::prelude::*;
 use crate::geom::Objects;
 use crate::kd::expect::{Metric, Parts};
 use crate::kd::{Probe, Stack, Tree, Work};
-use crate::scene::Scene;
 use crate::study::hits::cell::CellPlan;
 use crate::study::ray_sets::Rays;
 use crate::study::records::MetricRecord;
@@ -65,18 +64,17 @@ fn distinct_work(tree: &Tree, objects: &Objects, rays: &Rays) -> Work {
 
 /// The rows of `metrics.csv` of a tree and the metric's own lines, each with a mailbox: the surface area metric, which tests
 /// again, and the metric `mailbox`. None for other rays.
-pub fn records(scene: &Scene, plan: &CellPlan<'_>, tree: &Tree, rays: &Rays) -> Vec<MetricRecord> {
+pub fn records(plan: &CellPlan<'_>, tree: &Tree, parts: &Parts, rays: &Rays) -> Vec<MetricRecord> {
     if !is_control(rays.of) {
         return Vec::new();
     }
-    let cost = plan.rules.cost;
+    let (scene, cost) = (plan.scene, plan.rules.cost);
     let counted = distinct_work(tree, &scene.objects, rays);
     let counted = [counted.inner, counted.leaves, counted.tests];
     let [n_k, n_b, n_t] = counted.map(|n| n as f64 / rays.casts.len() as f64);
     let c_counted = cost.cost(n_k, n_b, n_t);
-    let parts = Parts::new(tree, &scene.objects, &scene.bounds);
     let row = |metric: Metric| {
-        let e = metric.expected(tree, &parts);
+        let e = metric.expected(tree, parts);
         let c = metrics::cost(cost, e);
         MetricRecord {
             scene: scene.name.clone(),
@@ -100,6 +98,7 @@ mod tests {
     use super::*;
     use crate::cost::CostModel;
     use crate::kd::{Rules, Strategy, build};
+    use crate::scene::Scene;
     use crate::study::ray_sets::{Number, gather};
 
     #[test]

@@ -4,7 +4,6 @@ use crate::cost::CostModel;
 use crate::kd::expect::{Expected, Metric, Parts};
 use crate::kd::{Ask, Tree};
 use crate::rays::{LineLaw, Source};
-use crate::scene::Scene;
 use crate::study::hits::cell::CellPlan;
 use crate::study::ray_sets::{Rays, RaysOf};
 use crate::study::records::MetricRecord;
@@ -45,9 +44,8 @@ pub fn suited(rays: RaysOf) -> Metric {
 }
 
 /// What each metric expects of a ray in a tree, in the order of [`METRICS`].
-pub fn expected(scene: &Scene, tree: &Tree) -> Vec<Expected> {
-    let parts = Parts::new(tree, &scene.objects, &scene.bounds);
-    let of = |metric: &Metric| metric.expected(tree, &parts);
+pub fn expected(tree: &Tree, parts: &Parts) -> Vec<Expected> {
+    let of = |metric: &Metric| metric.expected(tree, parts);
     METRICS.iter().map(of).collect()
 }
 

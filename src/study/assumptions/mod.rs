@@ -17,6 +17,7 @@ use crate::kd::expect::Metric;
 use crate::scene::Scene;
 
 use super::records::{ExactRecord, OrderRecord, Summary, WorkRecord};
+use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError};
 use super::{Plan, RunError, Watcher};
 
@@ -35,38 +36,29 @@ pub(super) fn run(
         .iter()
         .map(|scene| SceneCell::of(plan, asked, scene))
         .collect();
-    let trees = |cell: &SceneCell<'_>| cell.trees.len() as u64;
-    watcher.expect(cells.iter().map(trees).sum());
-    let found: Vec<Option<Found>> = cells.iter().map(|cell| store.finished(&cell.id)).collect();
-    let already = found.iter().flatten().count();
-    let all = scenes.len();
-    if already > 0 {
-        watcher.note(&format!(
-            "{already} of {all} scenes were finished by an earlier run (--force measures them again)"
-        ));
-    }
-    if already < all {
+    let found = cells.iter().map(|cell| store.finished(&cell.id)).collect();
+    let announce = |left: &[&SceneCell<'_>]| {
         watcher.announce(&format!(
             "tracing {} sets of rays through the trees of {} scenes",
             asked.rays.len(),
-            all - already
+            left.len()
         ));
-    }
-    let mut results = Vec::new();
-    for ((scene, cell), found) in scenes.iter().zip(&cells).zip(found) {
-        if let Some(found) = found {
-            watcher.skip(trees(cell));
-            results.push(found);
-            continue;
-        }
+    };
+    let measure = |cell: &SceneCell<'_>| {
+        let scene = cell.scene;
         watcher.begin(&scene.name);
-        let found = measure(asked, scene, cell, watcher).map_err(|fault| RunError::Bug {
+        let found = measure(asked, cell, watcher).map_err(|fault| RunError::Bug {
             place: scene.name.clone(),
             fault,
         })?;
         store.save(&cell.id, &found)?;
-        results.push(found);
-    }
+        Ok(found)
+    };
+    let extent = |cell: &SceneCell<'_>| Extent {
+        things: 1,
+        units: cell.trees.len() as u64,
+    };
+    let results = piece_by_piece(&cells, found, extent, "scenes", watcher, announce, measure)?;
     write(plan, asked, &results, store)?;
     Ok(())
 }

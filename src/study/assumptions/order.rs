@@ -1,6 +1,6 @@
 //! Does the metric rank the strategies' trees as the rays do?
 
-use crate::stats::{ScoreMoments, kendall_tau_b, simultaneous_quantile};
+use crate::stats::{ScoreMoments, Taken, kendall_tau_b, simultaneous_quantile, take_least};
 use crate::study::LEVEL;
 use crate::study::records::OrderRecord;
 
@@ -69,9 +69,11 @@ pub fn order(
             *kind += 1;
         }
     }
-    let best = |costs: &[f64]| (0..costs.len()).min_by(|&i, &j| costs[i].total_cmp(&costs[j]));
-    let (taken, cheapest) = (best(&predicted)?, best(&counted)?);
-    let least = counted[cheapest];
+    let Taken {
+        taken,
+        cheapest,
+        regret,
+    } = take_least(&predicted, &counted)?;
     Some(OrderRecord {
         scene: scene.into(),
         rays: rays.into(),
@@ -83,7 +85,7 @@ pub fn order(
         tied,
         predicted_best: trees[taken].strategy.clone(),
         counted_best: trees[cheapest].strategy.clone(),
-        regret: (least > 0.0).then(|| counted[taken] / least - 1.0),
+        regret: regret.filter(|_| counted[cheapest] > 0.0),
     })
 }
 

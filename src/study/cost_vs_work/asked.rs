@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
 use crate::study::ray_sets::RaysOf;
 
 /// The keys of this kind.
@@ -78,14 +78,7 @@ impl CostVsWork {
     /// Whether the values make sense together.
     pub fn check(&self, _: &[String]) -> Result<(), Wrong> {
         check_strategies(&self.strategies)?;
-        wrong_unless(!self.stops.is_empty(), "stops", || {
-            "stops must name at least one rule".into()
-        })?;
-        for (i, stop) in self.stops.iter().enumerate() {
-            wrong_unless(!self.stops[..i].contains(stop), "stops", || {
-                format!("stop rule '{stop}' is named twice")
-            })?;
-        }
+        check_stops(&self.stops)?;
         RaysOf::check(&self.rays)?;
         let within = |key: &'static str, value: u64, most: u64| {
             wrong_unless((1..=most).contains(&value), key, || {

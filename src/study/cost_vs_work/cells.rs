@@ -53,7 +53,7 @@ pub fn of_scene<'a>(plan: &Plan, asked: &CostVsWork, scene: &'a Scene) -> Vec<Ce
 }
 
 /// How the passes are timed: on what [`chunks`] gives; no builds.
-fn rule(asked: &CostVsWork) -> timing::Timing {
+pub fn rule(asked: &CostVsWork) -> timing::Timing {
     timing::Timing {
         rounds: asked.timing.rounds,
         builds: asked.timing.rounds,

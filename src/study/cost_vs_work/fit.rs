@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
-use crate::stats::{Normal, kendall_tau_b, median, quantile};
+use crate::stats::{Normal, concordant, kendall_tau_b, median, quantile, take_least};
 
 use super::terms::{Row, Term};
 
@@ -237,14 +237,13 @@ impl Orders {
             let Some(tau) = kendall_tau_b(&costs, &times) else {
                 continue;
             };
-            let own = crate::stats::concordant(&costs, &times);
+            let own = concordant(&costs, &times);
             right += own.right;
             pairs += own.right + own.wrong;
             all.scenes += 1;
             all.tau += tau;
-            let taken = (0..costs.len()).min_by(|&a, &b| costs[a].total_cmp(&costs[b]));
-            let fastest = times.iter().copied().fold(f64::INFINITY, f64::min);
-            let regret = taken.map_or(0.0, |taken| times[taken] / fastest - 1.0);
+            let taken = take_least(&costs, &times);
+            let regret = taken.and_then(|taken| taken.regret).unwrap_or(0.0);
             all.regret_mean += regret;
             if regret > all.regret_max || all.worst.is_empty() {
                 all.regret_max = regret;

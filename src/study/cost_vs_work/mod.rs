@@ -17,6 +17,7 @@ use crate::scene::Scene;
 use super::hits;
 use super::hits::cell::CellPlan;
 use super::records::{CellRecord, Estimate, PassTiming, Summary, WorkRecord};
+use super::resume::piece_by_piece;
 use super::store::{Store, TIMINGS};
 use super::{Plan, RunError, Watcher};
 
@@ -35,33 +36,24 @@ pub(super) fn run(
         .iter()
         .map(|scene| cells::of_scene(plan, asked, scene));
     let planned: Vec<Vec<CellPlan>> = planned.collect();
-    // Of every tree: its counts, and each round of its times.
-    let units = u64::from(1 + asked.timing.rounds);
-    let all: usize = planned.iter().map(Vec::len).sum();
-    watcher.expect(all as u64 * units);
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let found: Vec<_> = planned
+    let found = planned
         .iter()
-        .map(|cells| cells::finished(asked, store, cells, &times))
-        .collect();
-    let already = found.iter().flatten().map(Vec::len).sum::<usize>();
-    if already > 0 {
-        watcher.note(&format!(
-            "{already} of {all} trees were finished by an earlier run (--force measures them again)"
-        ));
-    }
-    if already < all {
-        watcher.announce(&format!("tracing rays through {} trees", all - already));
-    }
-    let mut measured: Vec<Measured> = Vec::new();
-    for (cells, found) in planned.iter().zip(found) {
-        if let Some(found) = found {
-            watcher.skip(found.len() as u64 * units);
-            measured.extend(found);
-        } else {
-            measured.extend(cells::measure(plan, asked, cells, store, watcher)?);
-        }
-    }
+        .map(|cells| cells::finished(asked, store, cells, &times));
+    let announce = |left: &[&Vec<CellPlan>]| {
+        let trees: usize = left.iter().map(|cells| cells.len()).sum();
+        watcher.announce(&format!("tracing rays through {trees} trees"));
+    };
+    let measured = piece_by_piece(
+        &planned,
+        found.collect(),
+        |cells| cells::rule(asked).extent(cells.len()),
+        "trees",
+        watcher,
+        announce,
+        |cells| cells::measure(plan, asked, cells, store, watcher),
+    )?;
+    let measured: Vec<Measured> = measured.into_iter().flatten().collect();
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     calibration::write(plan, asked, &measured, &times, store, watcher)?;
     let records: Vec<CellRecord> = measured.iter().map(|tree| tree.record.clone()).collect();

@@ -1,6 +1,6 @@
 //! Into which order areas put the trees of a scene, and into which order counting puts them.
 
-use crate::stats::{concordant, kendall_tau_b};
+use crate::stats::{Taken, concordant, kendall_tau_b, take_least};
 use crate::study::records::{TreeOrderRecord, WorkRecord};
 
 /// Rows of all stop rules together have this in place of one.
@@ -29,14 +29,8 @@ fn order(trees: &[&WorkRecord], stop: &str) -> Option<TreeOrderRecord> {
     let predicted: Vec<f64> = trees.iter().map(|row| row.c_predicted).collect();
     let counted: Vec<f64> = trees.iter().map(|row| row.c_counted).collect();
     let pairs = concordant(&predicted, &counted);
-    let by_areas = |a: &&WorkRecord, b: &&WorkRecord| a.c_predicted.total_cmp(&b.c_predicted);
-    let taken = trees.iter().copied().min_by(by_areas)?;
-    let least = counted.iter().copied().fold(f64::INFINITY, f64::min);
-    let regret = if taken.c_counted == least {
-        0.0
-    } else {
-        taken.c_counted / least - 1.0
-    };
+    let Taken { taken, regret, .. } = take_least(&predicted, &counted)?;
+    let taken = trees[taken];
     Some(TreeOrderRecord {
         scene: taken.scene.clone(),
         rays: taken.rays.clone(),
@@ -46,7 +40,7 @@ fn order(trees: &[&WorkRecord], stop: &str) -> Option<TreeOrderRecord> {
         pairs: pairs.right + pairs.wrong + pairs.tied,
         pairs_right: pairs.right,
         taken: taken.cell.clone(),
-        regret: regret.is_finite().then_some(regret),
+        regret,
     })
 }
 

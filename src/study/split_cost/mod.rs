@@ -13,6 +13,7 @@ use crate::scene::Scene;
 use super::hits::cell::plant;
 use super::identity::{content, digest};
 use super::records::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord, Summary, Verdict};
+use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError};
 use super::{Plan, RunError, SCHEMA, Watcher};
 
@@ -58,37 +59,28 @@ pub(super) fn run(
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
     let size = |scene: &Scene| scene.bounds.len() as u64;
-    watcher.expect(scenes.iter().map(size).sum());
-    let ids: Vec<String> = scenes.iter().map(|s| identity(plan, asked, s)).collect();
-    let found: Vec<Option<Found>> = ids.iter().map(|id| store.finished(id)).collect();
-    let already = found.iter().flatten().count();
-    let all = scenes.len();
-    if already > 0 {
-        watcher.note(&format!(
-            "{already} of {all} scenes were finished by an earlier run (--force measures them again)"
-        ));
-    }
-    if already < all {
-        let left = all - already;
-        let s = if left == 1 { "" } else { "s" };
-        watcher.announce(&format!("looking at the nodes of {left} tree{s}"));
-    }
-    let mut results = Vec::new();
-    for ((scene, id), found) in scenes.iter().zip(&ids).zip(found) {
-        if let Some(found) = found {
-            watcher.skip(size(scene));
-            results.push(found);
-            continue;
-        }
+    let with_id = |scene| (scene, identity(plan, asked, scene));
+    let cells: Vec<(&Scene, String)> = scenes.iter().map(with_id).collect();
+    let found = cells.iter().map(|(_, id)| store.finished(id)).collect();
+    let announce = |left: &[&(&Scene, String)]| {
+        let s = if left.len() == 1 { "" } else { "s" };
+        watcher.announce(&format!("looking at the nodes of {} tree{s}", left.len()));
+    };
+    let measure = |(scene, id): &(&Scene, String)| {
         watcher.begin(&scene.name);
         let found = measure(plan, asked, scene, watcher).map_err(|fault| RunError::Bug {
             place: scene.name.clone(),
             fault,
         })?;
         store.save(id, &found)?;
-        results.push(found);
         watcher.done(size(scene));
-    }
+        Ok(found)
+    };
+    let extent = |(scene, _): &(&Scene, String)| Extent {
+        things: 1,
+        units: size(scene),
+    };
+    let results = piece_by_piece(&cells, found, extent, "scenes", watcher, announce, measure)?;
     write(plan, asked, &results, store)?;
     Ok(())
 }

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
 use crate::study::records::file_stem;
 use crate::study::timing::Timing;
 use crate::tracer::PIXELS;
@@ -56,14 +56,7 @@ impl Strategies {
     /// Whether the values make sense together.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         check_strategies(&self.strategies)?;
-        wrong_unless(!self.stops.is_empty(), "stops", || {
-            "stops must name at least one rule".into()
-        })?;
-        for (i, stop) in self.stops.iter().enumerate() {
-            wrong_unless(!self.stops[..i].contains(stop), "stops", || {
-                format!("stop rule '{stop}' is named twice")
-            })?;
-        }
+        check_stops(&self.stops)?;
         wrong_unless((1..=MOST_PIXELS).contains(&self.pixels), "pixels", || {
             format!(
                 "pixels = {}, but it must be 1 to {MOST_PIXELS}",

@@ -12,6 +12,7 @@ use crate::tracer::RayKind;
 
 use super::hits;
 use super::records::{CellRecord, PassTiming, RayRecord, Summary};
+use super::resume::piece_by_piece;
 use super::store::{Store, StoreError, TIMINGS};
 use super::{Plan, RunError, Watcher};
 
@@ -30,41 +31,31 @@ pub(super) fn run(
         .iter()
         .map(|scene| cells::of_scene(plan, asked, scene))
         .collect();
-    // Of every tree: its counts, and each round of its times.
-    let units = u64::from(1 + asked.timing.rounds);
-    let all: usize = work.iter().map(Vec::len).sum();
-    watcher.expect(all as u64 * units);
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let found: Vec<_> = work
+    let found = work
         .iter()
-        .map(|cells| cells::finished(asked, store, cells, &times))
-        .collect();
-    let already = found.iter().flatten().map(Vec::len).sum::<usize>();
-    if already > 0 {
-        watcher.note(&format!(
-            "{already} of {all} trees were finished by an earlier run (--force measures them again)"
-        ));
-    }
-    if already < all {
-        watcher.announce(&format!("tracing rays through {} trees", all - already));
-        let left = work.iter().zip(&found).filter(|(_, found)| found.is_none());
-        let seconds: f64 = left.map(|(cells, _)| cells::guess(asked, cells)).sum();
+        .map(|cells| cells::finished(asked, store, cells, &times));
+    let announce = |left: &[&Vec<TreeCell>]| {
+        let trees: usize = left.iter().map(|cells| cells.len()).sum();
+        watcher.announce(&format!("tracing rays through {trees} trees"));
+        let seconds: f64 = left.iter().map(|cells| cells::guess(asked, cells)).sum();
         if seconds > 60.0 {
             let minutes = (seconds / 60.0).ceil();
             watcher.note(&format!(
                 "this takes about {minutes} minutes on two cores of 2024; a stopped run goes on where it was"
             ));
         }
-    }
-    let mut results = Vec::new();
-    for (cells, found) in work.iter().zip(found) {
-        if let Some(found) = found {
-            watcher.skip(found.len() as u64 * units);
-            results.extend(found);
-        } else {
-            results.extend(cells::measure(plan, asked, cells, store, watcher)?);
-        }
-    }
+    };
+    let results = piece_by_piece(
+        &work,
+        found.collect(),
+        |cells| asked.timing.extent(cells.len()),
+        "trees",
+        watcher,
+        announce,
+        |cells| cells::measure(plan, asked, cells, store, watcher),
+    )?;
+    let results: Vec<Studied> = results.into_iter().flatten().collect();
     slices::write(plan, asked, scenes, store, watcher)?;
     write(plan, asked, &results, store)?;
     Ok(())
