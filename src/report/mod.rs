@@ -29,7 +29,9 @@ pub mod render;
 pub mod screen;
 mod series;
 mod slopes;
+mod speed_vs_error;
 mod split_cost;
+mod stability;
 mod strategies;
 mod svg;
 mod table;
@@ -51,7 +53,9 @@ pub use cost_vs_work::CostVsWork;
 pub use figure::Figure;
 pub use hits::Hits;
 pub use read::{Content, Run, read_run};
+pub use speed_vs_error::SpeedVsError;
 pub use split_cost::SplitCost;
+pub use stability::Stability;
 pub use strategies::Strategies;
 pub use table::{Align, Cell, Column, Table};
 pub use termination::Termination;
@@ -149,6 +153,8 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
         Content::SplitCost(nodes) => nodes.figures(&run.summary),
         Content::CostVsWork(trees) => trees.figures(&run.summary),
         Content::Assumptions(rays) => rays.figures(&run.summary),
+        Content::SpeedVsError(parts) => parts.figures(&run.summary),
+        Content::Stability(cases) => cases.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -194,6 +200,8 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
         Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), trees.texts()),
         Content::Assumptions(rays) => (named(rays.tables(&run.summary)), Vec::new()),
+        Content::SpeedVsError(parts) => (named(parts.tables(&run.summary)), Vec::new()),
+        Content::Stability(cases) => (named(cases.tables(&run.summary)), Vec::new()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

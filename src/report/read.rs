@@ -10,7 +10,9 @@ use super::ReportError;
 use super::assumptions::Assumptions;
 use super::cost_vs_work::CostVsWork;
 use super::hits::Hits;
+use super::speed_vs_error::SpeedVsError;
 use super::split_cost::SplitCost;
+use super::stability::Stability;
 use super::strategies::Strategies;
 use super::termination::Termination;
 use crate::study::records::{SCHEMA, Summary, Verdict};
@@ -41,6 +43,10 @@ pub enum Content {
     CostVsWork(CostVsWork),
     /// Kind `assumptions`.
     Assumptions(Assumptions),
+    /// Kind `speed-vs-error`.
+    SpeedVsError(SpeedVsError),
+    /// Kind `stability`.
+    Stability(Stability),
 }
 
 impl Run {
@@ -93,6 +99,8 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         "split-cost" => Content::SplitCost(SplitCost::read(dir)?),
         "cost-vs-work" => Content::CostVsWork(CostVsWork::read(dir)?),
         "assumptions" => Content::Assumptions(Assumptions::read(dir)?),
+        "speed-vs-error" => Content::SpeedVsError(SpeedVsError::read(dir)?),
+        "stability" => Content::Stability(Stability::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

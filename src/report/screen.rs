@@ -19,6 +19,8 @@ pub fn study(run: &Run) -> String {
         Content::SplitCost(nodes) => answer(run, &nodes.screen(WIDTH)),
         Content::CostVsWork(trees) => answer(run, &trees.screen(WIDTH)),
         Content::Assumptions(rays) => answer(run, &rays.screen(WIDTH)),
+        Content::SpeedVsError(parts) => answer(run, &parts.screen(WIDTH)),
+        Content::Stability(cases) => answer(run, &cases.screen(WIDTH)),
     }
 }
 

@@ -5,13 +5,16 @@ pub mod choices;
 pub mod cost_vs_work;
 pub mod hits;
 pub mod identity;
+pub mod kernel;
 pub mod lines;
 pub mod plan;
 pub mod ray_sets;
 pub mod record;
 pub mod records;
 pub mod resume;
+pub mod speed_vs_error;
 pub mod split_cost;
+pub mod stability;
 pub mod store;
 pub mod strategies;
 pub mod timing;
@@ -71,6 +74,8 @@ pub fn run(
         Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher)?,
         Kind::CostVsWork(asked) => cost_vs_work::run(plan, asked, scenes, store, watcher)?,
         Kind::Assumptions(asked) => assumptions::run(plan, asked, scenes, store, watcher)?,
+        Kind::SpeedVsError(asked) => speed_vs_error::run(plan, asked, scenes, store, watcher)?,
+        Kind::Stability(asked) => stability::run(plan, asked, scenes, store, watcher)?,
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -93,7 +98,7 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
         }),
         Kind::CostVsWork(asked) => sets(&asked.rays),
         Kind::Assumptions(asked) => sets(&asked.rays),
-        Kind::SplitCost(_) => Ok(()),
+        Kind::SplitCost(_) | Kind::SpeedVsError(_) | Kind::Stability(_) => Ok(()),
         Kind::Strategies(_) | Kind::Termination(_) => {
             match scenes.iter().find(|scene| scene.look.is_none()) {
                 Some(scene) => Err(format!(
@@ -118,5 +123,7 @@ pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
         Kind::SplitCost(asked) => split_cost::describe(plan, asked, scenes),
         Kind::CostVsWork(asked) => cost_vs_work::describe(plan, asked, scenes),
         Kind::Assumptions(asked) => assumptions::describe(plan, asked, scenes),
+        Kind::SpeedVsError(asked) => speed_vs_error::describe(plan, asked, scenes),
+        Kind::Stability(asked) => stability::describe(plan, asked, scenes),
     }
 }

@@ -24,7 +24,9 @@ use super::cost_vs_work::CostVsWork;
 use super::hits::HitsVsArea;
 use super::record::Record;
 use super::records::{Summary, file_stem};
+use super::speed_vs_error::SpeedVsError;
 use super::split_cost::SplitCost;
+use super::stability::Stability;
 use super::strategies::Strategies;
 use super::{LEVEL, LineRule, SCHEMA};
 
@@ -72,17 +74,23 @@ pub enum Kind {
     CostVsWork(CostVsWork),
     /// What the metric is worth where its assumptions fail.
     Assumptions(Assumptions),
+    /// What samplers, kernels and plane searches cost in time and in error.
+    SpeedVsError(SpeedVsError),
+    /// Hard cases, and the exact oracle.
+    Stability(Stability),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 6] = [
+    pub const NAMES: [&str; 8] = [
         "hits-vs-area",
         "strategies",
         "termination",
         "split-cost",
         "cost-vs-work",
         "assumptions",
+        "speed-vs-error",
+        "stability",
     ];
 
     /// The name in files.
@@ -94,6 +102,8 @@ impl Kind {
             Self::SplitCost(_) => Self::NAMES[3],
             Self::CostVsWork(_) => Self::NAMES[4],
             Self::Assumptions(_) => Self::NAMES[5],
+            Self::SpeedVsError(_) => Self::NAMES[6],
+            Self::Stability(_) => Self::NAMES[7],
         }
     }
 
@@ -104,6 +114,8 @@ impl Kind {
             Self::SplitCost(asked) => asked.check(scenes),
             Self::CostVsWork(asked) => asked.check(scenes),
             Self::Assumptions(asked) => asked.check(scenes),
+            Self::SpeedVsError(asked) => asked.check(scenes),
+            Self::Stability(asked) => asked.check(scenes),
         }
     }
 }
@@ -230,6 +242,8 @@ impl Plan {
             "split-cost" => Kind::SplitCost(asked(rest)?),
             "cost-vs-work" => Kind::CostVsWork(asked(rest)?),
             "assumptions" => Kind::Assumptions(asked(rest)?),
+            "speed-vs-error" => Kind::SpeedVsError(asked(rest)?),
+            "stability" => Kind::Stability(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -321,7 +335,9 @@ impl Plan {
             | Kind::Termination(_)
             | Kind::SplitCost(_)
             | Kind::CostVsWork(_)
-            | Kind::Assumptions(_) => {}
+            | Kind::Assumptions(_)
+            | Kind::SpeedVsError(_)
+            | Kind::Stability(_) => {}
         }
     }
 
@@ -341,6 +357,8 @@ impl Plan {
                 asked.number = lines;
                 asked.check_number().map_err(|wrong| wrong.message)?;
             }
+            Kind::SpeedVsError(asked) => asked.set_lines(lines)?,
+            Kind::Stability(asked) => asked.set_lines(lines)?,
         }
         Ok(())
     }
@@ -366,7 +384,11 @@ impl Plan {
             Kind::Assumptions(asked) if asked.figure.scene == old => {
                 asked.figure.scene = name.into();
             }
-            Kind::HitsVsArea(_) | Kind::Assumptions(_) | Kind::CostVsWork(_) => {}
+            Kind::SpeedVsError(asked) => asked.rename_scene(&old, name),
+            Kind::HitsVsArea(_)
+            | Kind::Assumptions(_)
+            | Kind::CostVsWork(_)
+            | Kind::Stability(_) => {}
         }
     }
 }

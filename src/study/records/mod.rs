@@ -7,7 +7,9 @@
 
 mod assumptions;
 mod calibration;
+mod speed;
 mod split_cost;
+mod stability;
 mod strategies;
 mod trace;
 mod work;
@@ -21,7 +23,11 @@ pub use calibration::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, ShareRecord,
     TimeVerdicts,
 };
+pub use speed::{
+    CoverageRecord, EnoughRecord, ErrorRecord, ExponentRecord, PlaneRecord, PrecisionRecord,
+};
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
+pub use stability::{CaseRecord, MetamorphicRecord, RandomRecord, TieRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 
 pub use trace::{HitRecord, TraceRecord};
