@@ -1,5 +1,7 @@
 //! Probes: what a traversal tells whoever is watching. One loop serves counting, scoring, tracing and timing.
 
+use crate::cost::CostModel;
+
 /// Where a ray goes from an inner node.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Turn {
@@ -44,6 +46,14 @@ pub struct Work {
     pub leaves: u64,
     /// Objects tested, one in several leaves each time (n_t).
     pub tests: u64,
+}
+
+impl Work {
+    /// Its cost: C if the work is one line's.
+    #[inline]
+    pub fn cost(&self, model: CostModel) -> f64 {
+        model.cost(self.inner as f64, self.leaves as f64, self.tests as f64)
+    }
 }
 
 impl Probe for Work {

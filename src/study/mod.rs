@@ -7,6 +7,7 @@ pub mod hits;
 pub mod identity;
 pub mod kernel;
 pub mod lines;
+pub mod needed;
 pub mod plan;
 pub mod ray_sets;
 pub mod record;

@@ -215,6 +215,12 @@ impl Plan {
         if let Some(seed) = overrides.seed {
             plan.seed = seed;
         }
+        if let Some(error) = overrides.error {
+            plan.set_error(error).map_err(|message| PlanError::Value {
+                path: format!("--error {error}"),
+                message,
+            })?;
+        }
         if let Some(n) = overrides.lines {
             plan.set_lines(n).map_err(|message| PlanError::Value {
                 path: format!("--lines {n}"),
@@ -359,6 +365,32 @@ impl Plan {
             }
             Kind::SpeedVsError(asked) => asked.set_lines(lines)?,
             Kind::Stability(asked) => asked.set_lines(lines)?,
+        }
+        Ok(())
+    }
+
+    /// Count as many lines and rays as bring the relative error of every tree's cost below this.
+    fn set_error(&mut self, error: f64) -> Result<(), String> {
+        let rule = LineRule::for_cost_error(error)?;
+        match &mut self.kind {
+            Kind::HitsVsArea(asked) => {
+                asked.lines = rule;
+                if let Some(work) = &mut asked.work {
+                    work.error = Some(error);
+                }
+            }
+            Kind::Strategies(asked) | Kind::Termination(asked) => asked.lines = rule,
+            Kind::CostVsWork(asked) => {
+                asked.lines = rule;
+                asked.error = Some(error);
+            }
+            Kind::Assumptions(asked) => asked.error = Some(error),
+            Kind::SplitCost(_) | Kind::SpeedVsError(_) | Kind::Stability(_) => {
+                return Err(format!(
+                    "no wanted error settles the number of lines of kind '{}'; give --lines",
+                    self.kind.name()
+                ));
+            }
         }
         Ok(())
     }

@@ -6,12 +6,14 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::Cast;
-use crate::kd::{Ask, Rules, StopRule, Strategy};
+use crate::kd::{Ask, Rules, StopRule, Strategy, Tree, Work};
 use crate::rays::{Source, SourceRays};
 use crate::scene::Scene;
 use crate::tracer::{RayKind, trace};
 
 use super::hits::cell::build_tree;
+use super::lines::check_error;
+use super::needed::needed;
 use super::plan::{Wrong, wrong_unless};
 use crate::cost::CostModel;
 
@@ -152,9 +154,52 @@ pub struct Number {
     pub rays: u64,
     /// Pixels across and up of the picture; all its rays are taken.
     pub pixels: u32,
+    /// Wanted relative error of the cost C in every tree: if given, as many rays of each source as that takes, at least
+    /// `rays`.
+    pub error: Option<f64>,
 }
 
-/// The rays of these sets in a scene. Sets of traced rays are there only if the scene has a look, and if there is any ray
+/// Most rays of a set that a wanted error may ask for: each takes 64 bytes.
+const MOST_RAYS: u64 = 1 << 22;
+
+impl Number {
+    /// Whether the wanted error can be one.
+    pub(super) fn check_error(error: Option<f64>) -> Result<(), Wrong> {
+        error.map_or(Ok(()), |error| {
+            check_error(error).map_err(|message| Wrong {
+                key: "error",
+                message,
+            })
+        })
+    }
+
+    /// Rays of a source that are enough in each of these trees.
+    fn settle(
+        &self,
+        scene: &Scene,
+        trees: &[Tree],
+        cost: CostModel,
+        source: &SourceRays,
+        ask: Ask,
+    ) -> u64 {
+        let Some(error) = self.error else {
+            return self.rays;
+        };
+        let bounds = [self.rays.min(MOST_RAYS), MOST_RAYS];
+        let one = |tree: &Tree| {
+            needed(error, bounds, |i, stack| {
+                let mut work = Work::default();
+                let ray = source.cast(i).ray();
+                ask.hits(tree, &scene.objects, &ray, stack, &mut work);
+                // Whoever hits the root's box visits at least the root.
+                (work.inner + work.leaves > 0).then(|| work.cost(cost))
+            })
+        };
+        trees.iter().map(one).max().unwrap_or(self.rays)
+    }
+}
+
+/// The rays of these sets in a scene; `rules` are of the trees they go through. Sets of traced rays are there only if the scene has a look, and if there is any ray
 /// of the kind.
 ///
 /// # Errors
@@ -163,8 +208,18 @@ pub fn gather(
     scene: &Scene,
     sets: &[RaysOf],
     number: Number,
+    rules: &[Rules],
     seed: u64,
 ) -> Result<Vec<Rays>, String> {
+    // Only a wanted error asks for the trees beforehand.
+    let asking = number.error.map_or(&[][..], |_| rules);
+    let trees: Vec<Tree> = asking
+        .iter()
+        .map(|rules| build_tree(scene, rules))
+        .collect();
+    let cost = asking
+        .first()
+        .map_or(CostModel::WALD_HAVRAN, |rules| rules.cost);
     let traces = sets.iter().any(|set| matches!(set, RaysOf::Traced(_)));
     let traced = scene.look.as_ref().filter(|_| traces).map(|look| {
         // The rays are the same whatever tree they are made with.
@@ -179,9 +234,10 @@ pub fn gather(
     let mut all = Vec::new();
     for &of in sets {
         let casts: Vec<Cast> = match of {
-            RaysOf::Source(source, _) => {
+            RaysOf::Source(source, ask) => {
                 let rays = SourceRays::new(source, scene, seed)?;
-                (0..number.rays).map(|i| rays.cast(i)).collect()
+                let enough = number.settle(scene, &trees, cost, &rays, ask);
+                (0..enough).map(|i| rays.cast(i)).collect()
             }
             RaysOf::Traced(kind) => traced
                 .as_ref()
@@ -231,15 +287,19 @@ mod tests {
         let number = Number {
             rays: 50,
             pixels: 8,
+            error: None,
         };
         let with = Scene::load("spd:balls:1").expect("a scene");
-        let rays = gather(&with, &sets, number, 1).expect("rays");
+        let rays = gather(&with, &sets, number, &[], 1).expect("rays");
         assert_eq!(
             rays.iter().map(|r| r.complete).collect::<Vec<_>>(),
             [false, true]
         );
         assert_eq!(rays[0].casts.len(), 50);
         let without = Scene::load("simple:soup:20").expect("a scene");
-        assert_eq!(gather(&without, &sets, number, 1).expect("rays").len(), 1);
+        assert_eq!(
+            gather(&without, &sets, number, &[], 1).expect("rays").len(),
+            1
+        );
     }
 }

@@ -134,7 +134,12 @@ mod tests {
             Overrides {
                 seed: Some(u64::MAX),
                 lines: Some(4096),
+                error: None,
                 quick: true,
+            },
+            Overrides {
+                error: Some(0.001),
+                ..Overrides::default()
             },
         ];
         for overrides in options {

@@ -45,6 +45,9 @@ pub struct Common {
     /// Lines a cell counts, instead of the experiment's rule; 1000000, 1e6 and 2^20 are understood.
     #[arg(long, global = true, value_name = "N", value_parser = count, allow_negative_numbers = true)]
     pub lines: Option<u64>,
+    /// As many lines, and rays of a source, as bring every tree's cost C within this relative error, at 95 %: 0.1% or 0.001.
+    #[arg(long, global = true, value_name = "SHARE", value_parser = share, allow_negative_numbers = true, conflicts_with = "lines")]
+    pub error: Option<f64>,
     /// Fewer lines and smaller scenes, as the experiment file says, into data/NAME-quick; nothing to publish.
     #[arg(long, global = true)]
     pub quick: bool,
@@ -211,6 +214,18 @@ fn count(text: &str) -> Result<u64, String> {
     parsed.ok_or_else(|| "expected a whole number such as 1000000, 1e6 or 2^20".into())
 }
 
+/// A share: 0.1% or 0.001.
+fn share(text: &str) -> Result<f64, String> {
+    let (number, unit) = match text.strip_suffix('%') {
+        Some(number) => (number, 0.01),
+        None => (text, 1.0),
+    };
+    let parsed = number.trim_end().parse::<f64>().ok().map(|n| n * unit);
+    parsed
+        .filter(|share| *share > 0.0 && *share < 1.0)
+        .ok_or_else(|| "expected a share such as 0.1% or 0.001, above 0 and below 1".into())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -222,6 +237,16 @@ mod tests {
         assert_eq!(count("2^20"), Ok(1 << 20));
         for wrong in ["", "-1", "1.5", "2^99", "1e99", "many"] {
             assert!(count(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn shares_are_understood() {
+        assert_eq!(share("0.001"), Ok(0.001));
+        assert_eq!(share("50%"), Ok(0.5));
+        assert_eq!(share("1e-3 %"), Ok(1e-5));
+        for wrong in ["", "%", "0", "1", "100%", "-1%", "nan", "inf", "1 in 10"] {
+            assert!(share(wrong).is_err(), "{wrong}");
         }
     }
 

@@ -92,6 +92,7 @@ fn execute(cli: &Cli) -> Result<bool> {
     let overrides = Overrides {
         seed: common.seed,
         lines: common.lines,
+        error: common.error,
         quick: common.quick,
     };
     let writes = matches!(

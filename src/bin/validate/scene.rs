@@ -41,7 +41,11 @@ pub fn one_scene(asked: &OneScene<'_>, common: &Common, overrides: Overrides) ->
     };
     let scenes = run::load_scenes(&mut plan, None)?;
     if let Kind::HitsVsArea(hits) = &mut plan.kind {
-        hits.work = Some(work(&scenes[0], own, common.quick));
+        let rays = work(&scenes[0], own, common.quick);
+        hits.work = Some(Work {
+            error: common.error,
+            ..rays
+        });
     }
     let quick = if common.quick { "-quick" } else { "" };
     plan.name = format!("scene-{}{quick}", file_stem(&plan.scenes[0]));
@@ -70,10 +74,11 @@ fn plan(asked: &OneScene<'_>, quick: bool, overrides: Overrides) -> Result<Plan>
         own,
     } = asked;
     let slope_within = if quick { 0.02 } else { 0.005 };
-    let lines = match overrides.lines {
-        Some(n) => LineRule::exactly(n),
-        None if quick => LineRule::for_error(slope_within, 1 << 16, 1 << 20),
-        None => LineRule::for_error(slope_within, 1 << 18, 1 << 22),
+    let lines = match (overrides.lines, overrides.error) {
+        (Some(n), _) => LineRule::exactly(n),
+        (None, Some(error)) => LineRule::for_cost_error(error),
+        (None, None) if quick => LineRule::for_error(slope_within, 1 << 16, 1 << 20),
+        (None, None) => LineRule::for_error(slope_within, 1 << 18, 1 << 22),
     };
     let rays = own.map_or_else(String::new, |(file, ask)| {
         format!(" --rays {} --ask {ask}", file.display())
@@ -132,6 +137,7 @@ fn work(scene: &Scene, own: Option<Own>, quick: bool) -> Work {
     Work {
         rays,
         number,
+        error: None,
         pixels,
         own,
     }

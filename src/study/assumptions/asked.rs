@@ -24,6 +24,8 @@ pub struct Assumptions {
     pub rays: Vec<RaysOf>,
     /// Rays of a source.
     pub number: u64,
+    /// Wanted relative error of the cost C in every tree by the rays of every source: as many as that takes, at least `number`.
+    pub error: Option<f64>,
     /// Pixels across and up of a picture whose rays are taken.
     pub pixels: u32,
     /// The tree whose nodes are drawn.
@@ -63,6 +65,7 @@ impl Assumptions {
             || "rays must name 'lines', the control that keeps every assumption".into(),
         )?;
         self.check_number()?;
+        Number::check_error(self.error)?;
         wrong_unless((1..=MOST_PIXELS).contains(&self.pixels), "pixels", || {
             format!(
                 "pixels = {}, but it must be 1 to {MOST_PIXELS}",
@@ -116,6 +119,7 @@ impl Assumptions {
         Number {
             rays: self.number,
             pixels: self.pixels,
+            error: self.error,
         }
     }
 }

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use crate::kd::expect::Parts;
-use crate::kd::predict;
+use crate::kd::{Rules, predict};
 use crate::scene::Scene;
 use crate::study::hits::cell::{CellPlan, plant};
 use crate::study::identity::{digest, whole};
@@ -103,7 +103,8 @@ pub fn measure(
 ) -> Result<Found, String> {
     let scene = cell.scene;
     let seed = cell.trees.first().map_or(0, |tree| tree.line_seed);
-    let sets = gather(scene, &asked.rays, asked.sizes(), seed)?;
+    let rules: Vec<Rules> = cell.trees.iter().map(|tree| tree.rules).collect();
+    let sets = gather(scene, &asked.rays, asked.sizes(), &rules, seed)?;
     let mut found = Found {
         work: Vec::new(),
         bias: Vec::new(),

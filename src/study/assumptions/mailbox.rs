@@ -108,8 +108,9 @@ mod tests {
         let number = Number {
             rays: 3000,
             pixels: 1,
+            error: None,
         };
-        let rays = &gather(&scene, &sets, number, 1).expect("rays")[0];
+        let rays = &gather(&scene, &sets, number, &[], 1).expect("rays")[0];
         let of = |stop: &str| {
             let rules = Rules {
                 strategy: Strategy::SpatialMedian,

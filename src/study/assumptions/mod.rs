@@ -19,7 +19,7 @@ use crate::scene::Scene;
 use super::records::{ExactRecord, OrderRecord, Summary, WorkRecord};
 use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError};
-use super::{Plan, RunError, Watcher};
+use super::{Plan, RunError, Watcher, needed};
 
 pub use asked::Assumptions;
 use cells::{Found, SceneCell, measure};
@@ -83,12 +83,14 @@ fn write(
     store.write_rows("metrics.csv", found.iter().flat_map(|f| &f.metrics))?;
     store.write_rows("exact.csv", &exact)?;
     let estimates = verdicts::control(asked, &work);
+    let mut verdicts = verdicts::all(asked, &work, &by_area, &exact, &estimates);
+    verdicts.extend(needed::of_records(asked.error, &[], &work));
     store.write_summary(&Summary {
         stop: Some(asked.stop.to_string()),
         family_level: Some(1.0 - asked.expect.family),
         figure_scene: Some(asked.figure.scene.clone()),
         figure_strategy: Some(asked.figure.strategy.name()),
-        verdicts: verdicts::all(asked, &work, &by_area, &exact, &estimates),
+        verdicts,
         estimates,
         ..plan.summary()
     })

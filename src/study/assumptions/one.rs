@@ -157,9 +157,10 @@ mod tests {
         let number = Number {
             rays: 1 << 14,
             pixels: 1,
+            error: None,
         };
         let set = of.parse().expect("a set");
-        let mut rays = gather(&scene, &[set], number, plan.line_seed).expect("rays");
+        let mut rays = gather(&scene, &[set], number, &[], plan.line_seed).expect("rays");
         let (tree, _) = plant(&scene, &rules).expect("a tree");
         let prediction = predict(&tree);
         let places = Places::of(&tree, &prediction);

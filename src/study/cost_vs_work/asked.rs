@@ -6,7 +6,7 @@ use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
-use crate::study::ray_sets::RaysOf;
+use crate::study::ray_sets::{Number, RaysOf};
 
 /// The keys of this kind.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -25,6 +25,8 @@ pub struct CostVsWork {
     pub rays: Vec<RaysOf>,
     /// Rays of each set that comes from a source.
     pub number: u64,
+    /// Wanted relative error of the cost C in every tree by the rays of every source: as many as that takes, at least `number`.
+    pub error: Option<f64>,
     /// Pixels across and up of the picture, whose rays are counted all.
     pub pixels: u32,
     /// How seconds are measured.
@@ -86,6 +88,7 @@ impl CostVsWork {
             })
         };
         within("number", self.number, MOST_RAYS)?;
+        Number::check_error(self.error)?;
         within("pixels", self.pixels.into(), MOST_PIXELS.into())?;
         within("timing.rays", self.timing.rays, MOST_RAYS)?;
         within("timing.work", self.timing.work, u64::MAX)?;

@@ -37,10 +37,11 @@ pub fn of_scene<'a>(plan: &Plan, asked: &CostVsWork, scene: &'a Scene) -> Vec<Ce
     let seen = whole(scene);
     for plan in &mut plans {
         let identity = format!(
-            "{} {seen} {:?} {} {} {} {} {:?} {:?}",
+            "{} {seen} {:?} {} {:?} {} {} {} {:?} {:?}",
             plan.id,
             asked.rays,
             asked.number,
+            asked.error,
             asked.pixels,
             asked.timing.rays,
             asked.timing.work,
@@ -124,8 +125,11 @@ pub fn measure(
     let number = Number {
         rays: asked.number,
         pixels: asked.pixels,
+        error: asked.error,
     };
-    let sets = gather(scene, &asked.rays, number, *line_seed).map_err(bug(scene.name.clone()))?;
+    let rules: Vec<Rules> = cells.iter().map(|cell| cell.rules).collect();
+    let sets =
+        gather(scene, &asked.rays, number, &rules, *line_seed).map_err(bug(scene.name.clone()))?;
     let mut trees: Vec<Tree> = Vec::new();
     let mut counted = Vec::new();
     for cell in cells {
@@ -231,6 +235,7 @@ mod tests {
             lines: crate::study::LineRule::exactly(2048).expect("a rule"),
             rays: vec![],
             number: 1,
+            error: None,
             pixels: 1,
             timing: Timing {
                 rays: 1024,

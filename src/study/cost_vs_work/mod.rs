@@ -19,7 +19,7 @@ use super::hits::cell::CellPlan;
 use super::records::{CellRecord, Estimate, PassTiming, Summary, WorkRecord};
 use super::resume::piece_by_piece;
 use super::store::{Store, TIMINGS};
-use super::{Plan, RunError, Watcher};
+use super::{Plan, RunError, Watcher, needed};
 
 pub use asked::CostVsWork;
 use cells::Measured;
@@ -71,6 +71,7 @@ pub(super) fn run(
         "the predicted count",
         &counts,
     ));
+    verdicts.extend(needed::of_records(asked.error, &records, &work));
     store.write_summary(&Summary {
         stop: match asked.stops[..] {
             [stop] => Some(stop.to_string()),

@@ -4,13 +4,16 @@ use std::time::Instant;
 
 use serde::{Deserialize, Serialize};
 
+use crate::geom::Span;
 use crate::kd::audit::{audit, audit_clipped};
 use crate::kd::stream::{Streams, count_lines};
-use crate::kd::{Counts, Prediction, Rules, Tree, build_objects, predict};
+use crate::kd::traverse::traverse_line;
+use crate::kd::{Counts, Prediction, Rules, Stack, Tree, Work, build_objects, predict};
 use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
 use crate::study::identity::{content, digest, line_seed, whole};
+use crate::study::needed::needed;
 use crate::study::ray_sets::Rays;
 use crate::study::{LineRule, SCHEMA, Watcher, work};
 
@@ -155,16 +158,27 @@ pub fn compare(
     prediction: &Prediction,
     watcher: &impl Watcher,
 ) -> Result<CellResult, String> {
-    // Pilot: the first lines one by one, for the standard errors and the number of lines.
+    // Pilot: the first lines one by one, for the standard errors and, where no error of C settles it, the number of lines.
     let lines = SurfaceLines {
         world: plan.scene.world,
         seed: plan.line_seed,
     };
     let scoring = Scoring::new(tree, prediction);
-    let pilot = plan.lines.at_least().min(PILOT);
+    let settled = plan.lines.cost_error().map(|error| {
+        let cost = |i: u64, stack: &mut Stack| {
+            let mut work = Work::default();
+            for line in lines.range(i..i + 1) {
+                traverse_line(tree, &line, Span::FULL, stack, &mut work);
+            }
+            Some(work.cost(plan.rules.cost))
+        };
+        needed(error, plan.lines.bounds(), cost)
+    });
+    let pilot = settled.unwrap_or(plan.lines.at_least()).min(PILOT);
     let scored = score_lines(tree, &scoring, pilot, |range| lines.range(range));
     let spread = Spread::new(tree, prediction, &scoring, &scored);
-    let n = plan.lines.choose(spread.deviation(FIRST_SCORE + WEIGHTED));
+    let sigma = spread.deviation(FIRST_SCORE + WEIGHTED);
+    let n = settled.unwrap_or_else(|| plan.lines.choose(sigma));
     watcher.revise(plan.lines.guess(), n);
 
     // All lines through the streams, then the same check that any count must pass.

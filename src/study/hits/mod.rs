@@ -21,23 +21,22 @@ use super::records::{
     CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, TimingRecord, WorkRecord,
 };
 use super::store::{Store, StoreError, TIMINGS};
-use super::{LEVEL, Plan, RunError, Watcher};
+use super::{LEVEL, Plan, RunError, Watcher, needed};
 
 pub use asked::HitsVsArea;
 use cell::{CellPlan, CellResult, measure_with};
 use work::Gathered;
 
+/// The trees of every scene.
+fn rules(plan: &Plan, asked: &HitsVsArea) -> Vec<Rules> {
+    Rules::crossed(&[asked.stop], &asked.strategies, plan.cost, asked.clipped)
+}
+
 /// The cells of a plan in canonical order: scenes, then strategies.
 fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
     let mut cells = Vec::new();
     for scene in scenes {
-        let rules = asked.strategies.iter().map(|&strategy| Rules {
-            strategy,
-            stop: asked.stop,
-            cost: plan.cost,
-            clipped: asked.clipped,
-        });
-        let rules: Vec<Rules> = rules.collect();
+        let rules = rules(plan, asked);
         // Where rays stop depends on all of the scene.
         let work = asked.work.as_ref();
         let work = work.map(|work| format!("{} {}", whole(scene), work.identity()));
@@ -142,7 +141,7 @@ pub(super) fn run(
         let place = format!("{} {}", cell.scene.name, cell.rules.strategy);
         watcher.begin(&place);
         let result = gathered
-            .of(cell.scene, cell.line_seed)
+            .of(cell.scene, &rules(plan, asked), cell.line_seed)
             .and_then(|sets| measure_with(cell, &sets, watcher))
             .map_err(|fault| RunError::Bug { place, fault })?;
         keep(store, &result)?;
@@ -178,7 +177,8 @@ fn write(
     }
     store.write_rows("samplers.csv", samplers)?;
     write_work(asked, results, store)?;
-    store.write_summary(&summarise(plan, asked, &records, samplers))
+    let work: Vec<&WorkRecord> = results.iter().flat_map(|r| &r.work).collect();
+    store.write_summary(&summarise(plan, asked, &records, &work, samplers))
 }
 
 /// What rays did in every tree, and which strategy to take for them.
@@ -258,16 +258,19 @@ fn summarise(
     plan: &Plan,
     asked: &HitsVsArea,
     cells: &[CellRecord],
+    work: &[&WorkRecord],
     samplers: &[SamplerRecord],
 ) -> Summary {
     let estimates = estimates(cells, asked.expect.family);
+    let mut verdicts = verdicts::all(asked, cells, samplers, &estimates);
+    verdicts.extend(needed::of_records(asked.lines.cost_error(), cells, work));
     Summary {
         stop: Some(asked.stop.to_string()),
         slope_within: Some(asked.expect.slope_within),
         figure_scene: Some(asked.figure.scene.clone()),
         figure_strategy: Some(asked.figure.strategy.name()),
         family_level: Some(1.0 - asked.expect.family),
-        verdicts: verdicts::all(asked, cells, samplers, &estimates),
+        verdicts,
         estimates,
         ..plan.summary()
     }

@@ -3,7 +3,7 @@
 use serde::Deserialize;
 
 use crate::geom::Cast;
-use crate::kd::Ask;
+use crate::kd::{Ask, Rules};
 use crate::scene::Scene;
 use crate::study::identity;
 use crate::study::plan::{Wrong, wrong_unless};
@@ -17,6 +17,8 @@ pub struct Work {
     pub rays: Vec<RaysOf>,
     /// Rays of each set that has no end of them.
     pub number: u64,
+    /// Wanted relative error of the cost C in every tree by the rays of every source: as many as that takes, at least `number`.
+    pub error: Option<f64>,
     /// Pixels across and up of the picture whose rays are taken.
     pub pixels: u32,
     /// A user's own rays, from the command line.
@@ -48,6 +50,7 @@ impl Work {
                 )
             },
         )?;
+        Number::check_error(self.error)?;
         wrong_unless(
             (1..=MOST_PIXELS).contains(&self.pixels),
             "work.pixels",
@@ -65,8 +68,8 @@ impl Work {
         let rays: Vec<String> = self.rays.iter().map(RaysOf::to_string).collect();
         let own = self.own.as_ref().map(|own| (own.rays.of, &own.content));
         format!(
-            "rays {rays:?} {} pixels {} own {own:?}",
-            self.number, self.pixels
+            "rays {rays:?} {} {:?} pixels {} own {own:?}",
+            self.number, self.error, self.pixels
         )
     }
 
@@ -108,7 +111,7 @@ impl Own {
     }
 }
 
-/// The rays of one scene after the other, gathered when the first tree that needs them comes.
+/// The rays of one scene after the other, whose trees have these rules, gathered when the first tree that needs them comes.
 pub(super) struct Gathered<'a> {
     asked: Option<&'a Work>,
     scene: Option<&'a str>,
@@ -125,7 +128,12 @@ impl<'a> Gathered<'a> {
     }
 
     /// The sets of a scene, own rays first.
-    pub(super) fn of(&mut self, scene: &'a Scene, seed: u64) -> Result<Vec<&Rays>, String> {
+    pub(super) fn of(
+        &mut self,
+        scene: &'a Scene,
+        rules: &[Rules],
+        seed: u64,
+    ) -> Result<Vec<&Rays>, String> {
         let Some(asked) = self.asked else {
             return Ok(Vec::new());
         };
@@ -133,8 +141,9 @@ impl<'a> Gathered<'a> {
             let number = Number {
                 rays: asked.number,
                 pixels: asked.pixels,
+                error: asked.error,
             };
-            self.rays = gather(scene, &asked.rays, number, seed)?;
+            self.rays = gather(scene, &asked.rays, number, rules, seed)?;
             self.scene = Some(&scene.name);
         }
         let own = asked.own.iter().map(|own| &own.rays);

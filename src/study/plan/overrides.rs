@@ -10,6 +10,8 @@ pub struct Overrides {
     pub seed: Option<u64>,
     /// Exactly so many lines a cell.
     pub lines: Option<u64>,
+    /// As many lines, or rays of a source, as bring the relative error of every tree's cost below this.
+    pub error: Option<f64>,
     /// The quick form.
     pub quick: bool,
 }
@@ -19,7 +21,9 @@ impl Overrides {
     pub fn or(self, others: Self) -> Self {
         Self {
             seed: self.seed.or(others.seed),
-            lines: self.lines.or(others.lines),
+            // A number of lines and an error that settles it are one choice.
+            lines: self.lines.or(others.lines.filter(|_| self.error.is_none())),
+            error: self.error.or(others.error.filter(|_| self.lines.is_none())),
             quick: self.quick || others.quick,
         }
     }
@@ -35,6 +39,9 @@ impl Overrides {
         }
         if let Some(lines) = self.lines {
             text += &format!(" --lines {lines}");
+        }
+        if let Some(error) = self.error {
+            text += &format!(" --error {error}");
         }
         text
     }

@@ -5,7 +5,13 @@ const FILE: &str = include_str!("../../../experiments/figure3.toml");
 #[test]
 fn the_command_repeats_the_run() {
     let command = |seed, lines, quick| {
-        let overrides = Overrides { seed, lines, quick };
+        let error = None;
+        let overrides = Overrides {
+            seed,
+            lines,
+            error,
+            quick,
+        };
         let plan = Plan::parse(FILE, "x.toml", "x", overrides).expect("a plan");
         (plan.name, plan.command)
     };

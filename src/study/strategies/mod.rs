@@ -14,7 +14,7 @@ use super::hits;
 use super::records::{CellRecord, PassTiming, RayRecord, Summary};
 use super::resume::piece_by_piece;
 use super::store::{Store, StoreError, TIMINGS};
-use super::{Plan, RunError, Watcher};
+use super::{Plan, RunError, Watcher, needed};
 
 pub use asked::Strategies;
 use cells::{Studied, TreeCell};
@@ -73,13 +73,15 @@ fn write(
     store.write_rows("cells.csv", &records)?;
     store.write_rows("rays.csv", &rays)?;
     let estimates = hits::estimates(&records, asked.expect.family);
+    let mut verdicts = verdicts::all(asked, &records, &rays, &estimates);
+    verdicts.extend(needed::of_records(asked.lines.cost_error(), &records, &[]));
     store.write_summary(&Summary {
         stop: match asked.stops[..] {
             [stop] => Some(stop.to_string()),
             _ => None,
         },
         family_level: Some(1.0 - asked.expect.family),
-        verdicts: verdicts::all(asked, &records, &rays, &estimates),
+        verdicts,
         estimates,
         ..plan.summary()
     })
