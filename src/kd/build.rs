@@ -12,10 +12,14 @@ use serde::{Deserialize, Serialize};
 use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis, Objects};
 
+use super::arena::spread;
 use super::clip::Clipping;
+use super::events::EventLists;
 use super::medians::{clipped_centre, object_median, samples, spatial_median};
-use super::strategy::Positions;
-use super::sweep::{Event, Split, Sweep, sorted_events};
+use super::split::{Coster, Split};
+use super::strategy::{AxisOrder, Positions};
+use super::sweep::Sweep;
+use super::tally::Tally;
 use super::{Node, StopRule, Strategy, Tree};
 
 /// All that decides a tree besides the objects.
@@ -59,7 +63,7 @@ impl Rules {
 /// references.
 pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
     assert!(!rules.clipped, "boxes alone cannot be clipped");
-    build_over(bounds, world, rules, None)
+    build_over(bounds, world, rules, None, rules.strategy.sweeps())
 }
 
 /// As [`build`], of objects with these boxes; if the rules say so, objects are clipped to the nodes.
@@ -75,10 +79,17 @@ pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
 pub fn build_objects(objects: &Objects, bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
     assert_eq!(objects.len(), bounds.len(), "one box an object");
     let clipping = rules.clipped.then(|| Clipping::new(objects, &world));
-    build_over(bounds, world, rules, clipping)
+    build_over(bounds, world, rules, clipping, rules.strategy.sweeps())
 }
 
-fn build_over(bounds: &[Aabb], world: Aabb, rules: &Rules, clipping: Option<Clipping>) -> Tree {
+/// Every strategy can sweep sorted events; what it must not, it does faster without (the same planes, bit for bit).
+fn build_over(
+    bounds: &[Aabb],
+    world: Aabb,
+    rules: &Rules,
+    clipping: Option<Clipping>,
+    sweeps: bool,
+) -> Tree {
     for (i, b) in bounds.iter().enumerate() {
         assert!(
             b.is_valid() && world.contains(b),
@@ -99,7 +110,8 @@ fn build_over(bounds: &[Aabb], world: Aabb, rules: &Rules, clipping: Option<Clip
             world,
         },
         objects: (0..objects).collect(),
-        events: [0, 1, 2].map(|axis| sorted_events(bounds, axis)),
+        events: sweeps.then(|| EventLists::new(bounds)),
+        tally: Tally::default(),
         sides: vec![0; bounds.len()],
         centres: Vec::new(),
         clipping,
@@ -133,8 +145,10 @@ struct Builder<'a> {
     tree: Tree,
     /// Arena of object lists: a stack, the current node's on top.
     objects: Vec<u32>,
-    /// Arenas of sorted events by axis, likewise.
-    events: [Vec<Event>; 3],
+    /// Sorted events, likewise, where the rules sweep.
+    events: Option<EventLists>,
+    /// Scratch: counts at planes, where they do not.
+    tally: Tally,
     /// Sides of the current split an object goes to: bit 0 left, bit 1 right.
     sides: Vec<u8>,
     /// Scratch: centres of clipped bounds.
@@ -142,9 +156,6 @@ struct Builder<'a> {
     /// Set where the rules clip.
     clipping: Option<Clipping<'a>>,
 }
-
-pub(super) const LEFT: u8 = 1;
-pub(super) const RIGHT: u8 = 2;
 
 impl Builder<'_> {
     /// Make node `node` and all below it from the lists on top of the arenas.
@@ -174,8 +185,8 @@ impl Builder<'_> {
             clipping.turn_right(waiting, self.bounds.to_mut());
         }
         self.objects.truncate(kept.objects);
-        for axis in 0..3 {
-            self.events[axis].truncate(kept.events[axis]);
+        if let Some(events) = &mut self.events {
+            events.truncate(kept.events);
         }
         self.grow(left + 1, below, region);
     }
@@ -206,7 +217,7 @@ impl Builder<'_> {
             return None;
         }
         let (order, positions) = strategy.parts();
-        let all_compete = order == super::strategy::AxisOrder::All;
+        let all_compete = order == AxisOrder::All;
         let mut best: Option<Split> = None;
         for axis in order.axes(path.depth, bounds) {
             let candidate = self.cheapest(bounds, axis, region, positions);
@@ -232,14 +243,38 @@ impl Builder<'_> {
         region: Region,
         positions: Positions,
     ) -> Option<Split> {
+        let (window, planes) = self.candidates(bounds, axis, region, positions)?;
+        let objects = &self.objects[region.objects..];
+        let n = objects.len();
+        let Rules { stop, cost, .. } = self.rules;
+        let coster = Coster::new(axis, bounds, n, cost, stop.takes_useless_planes());
+        if let Some(events) = &self.events {
+            let events = events.on(axis, region.events[axis]);
+            return Sweep { events, n }.cheapest(&coster, window, &planes);
+        }
+        self.tally.restart(&planes, &coster);
+        for &object in objects {
+            let b = &self.bounds[object as usize];
+            self.tally.add(b.lo[axis], b.hi[axis]);
+        }
+        self.tally.cheapest(&coster, n)
+    }
+
+    /// The strategy's candidates on one axis: a window whose object bounds are all candidates, and positions, ascending.
+    fn candidates(
+        &mut self,
+        bounds: &Aabb,
+        axis: Axis,
+        region: Region,
+        positions: Positions,
+    ) -> Option<(Option<(f64, f64)>, Vec<f64>)> {
         let spatial = spatial_median(bounds, axis);
         let mut medians = || {
             self.object_median(bounds, axis, region)
                 .map(|object| (spatial.min(object), spatial.max(object)))
         };
-        // `window`: object bounds in it are candidates; `extra`: further positions, ascending.
         let mut window = None;
-        let mut extra = match positions {
+        let mut planes = match positions {
             Positions::AllBounds => {
                 window = Some((bounds.lo[axis], bounds.hi[axis]));
                 vec![]
@@ -260,17 +295,10 @@ impl Builder<'_> {
                 samples(a, b, count)
             }
         };
-        // Medians that meet, and samples between nearly equal ones, are one candidate.
-        extra.dedup();
-        let sweep = Sweep {
-            axis,
-            bounds,
-            events: &self.events[axis][region.events[axis]..],
-            n: self.objects.len() - region.objects,
-            cost: &self.rules.cost,
-            keep_useless: self.rules.stop.takes_useless_planes(),
-        };
-        sweep.cheapest(window, &extra)
+        // Medians that meet, and samples between nearly equal ones, are one candidate; -0 and +0 are +0, as in events.
+        planes.dedup();
+        planes.iter_mut().for_each(|s| *s += 0.0);
+        Some((window, planes))
     }
 
     /// Median of the centres of the objects' bounds clipped to the node.
@@ -286,76 +314,28 @@ impl Builder<'_> {
     /// Sort the node's lists into the children's. Returns where the left child's begin, on top, and where the right
     /// child's, which take the node's own place, end.
     fn distribute(&mut self, split: &Split, region: Region) -> (Region, Region) {
-        let Split {
-            axis,
-            position: s,
-            planar_left,
-            ..
-        } = *split;
         let bounds: &[Aabb] = &self.bounds;
         for &object in &self.objects[region.objects..] {
-            let b = &bounds[object as usize];
-            let (left, right) = (b.lo[axis] < s, b.hi[axis] > s);
-            self.sides[object as usize] = match (left, right) {
-                (false, false) if planar_left => LEFT,
-                (false, false) => RIGHT,
-                _ => u8::from(left) * LEFT + u8::from(right) * RIGHT,
-            };
+            self.sides[object as usize] = split.sides(&bounds[object as usize]);
         }
         if let Some(clipping) = &mut self.clipping {
             let objects = &self.objects[region.objects..];
-            let bounds = self.bounds.to_mut();
-            clipping.cut(objects, &mut self.sides, bounds, (axis, s));
+            let plane = (split.axis, split.position);
+            clipping.cut(objects, &mut self.sides, self.bounds.to_mut(), plane);
         }
         let mut top = Region::default();
         let mut kept = Region::default();
         (top.objects, kept.objects) = spread(&mut self.objects, region.objects, |&object| {
             self.sides[object as usize]
         });
-        if let Some(clipping) = &self.clipping {
-            // Their events here end: the parts have their own.
-            for &object in &clipping.cut {
-                self.sides[object as usize] = 0;
-            }
-        }
-        let sides = &self.sides;
-        for k in 0..3 {
-            let start = region.events[k];
-            let events = &mut self.events[k];
-            (top.events[k], kept.events[k]) = if k == axis {
-                // An event beyond the plane leaves the child's box: its object now reaches the face.
-                spread(events, start, |e| {
-                    let inside =
-                        u8::from(e.position <= s) * LEFT + u8::from(e.position >= s) * RIGHT;
-                    sides[e.object as usize] & inside
-                })
-            } else {
-                spread(events, start, |e| sides[e.object as usize])
-            };
-            if let Some(clipping) = &self.clipping {
-                // At most as many as the objects had here, so the right list still ends below the left one.
-                kept.events[k] = clipping.merge(1, k, events, start, kept.events[k]);
-                debug_assert!(kept.events[k] <= top.events[k]);
-                clipping.merge(0, k, events, top.events[k], events.len());
-            }
+        if let Some(events) = &mut self.events {
+            let cut = self.clipping.as_ref().map_or(&[][..], |c| &c.cut);
+            (top.events, kept.events) =
+                events.distribute(split, &mut self.sides, cut, region.events);
         }
         (top, kept)
     }
 }
 
-/// Split the list on top of an arena (from `start` on): right entries move down into its place, left entries are put on
-/// top; entries may do both. Returns where the left list begins and where the right one ends. Keeps order.
-fn spread<T: Copy>(arena: &mut Vec<T>, start: usize, side: impl Fn(&T) -> u8) -> (usize, usize) {
-    let top = arena.len();
-    let mut end = start;
-    for i in start..top {
-        let entry = arena[i];
-        let side = side(&entry);
-        if side & LEFT != 0 {
-            arena.push(entry);
-        }
-        arena[end] = entry;
-        end += usize::from(side & RIGHT != 0);
-    }
-    (top, end)
-}
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,8 @@ use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis};
 
 use super::medians::{clipped_centre, object_median, samples, spatial_median};
-use super::sweep::{Coster, Sweep, sorted_events};
+use super::split::Coster;
+use super::sweep::{Sweep, sorted_events};
 use super::{NodeKind, Tree};
 
 /// f over SA(node), so that it is the number of tests that a line through the node is expected to make.
@@ -75,15 +76,9 @@ pub fn split_curve(
     let clip = |b: &Aabb| Aabb::new(b.lo.max(node.lo), b.hi.min(node.hi));
     let clipped: Vec<Aabb> = objects.iter().map(clip).collect();
     let events = sorted_events(&clipped, axis);
-    let sweep = Sweep {
-        axis,
-        bounds: node,
-        events: &events,
-        n: objects.len(),
-        cost: &TESTS,
-        keep_useless: true,
-    };
-    let coster = Coster::new(&sweep);
+    let n = objects.len();
+    let sweep = Sweep { events: &events, n };
+    let coster = Coster::new(axis, node, n, &TESTS, true);
 
     let mut centres: Vec<f64> = clipped
         .iter()
@@ -127,7 +122,9 @@ pub fn split_curve(
     sweep.each(whole, &extra, |s, left, planar, right| {
         points.extend(point(s, left, planar, right));
     });
-    let least = sweep.cheapest(whole, &[]).map(|split| split.position);
+    let least = sweep
+        .cheapest(&coster, whole, &[])
+        .map(|split| split.position);
     let minimum = points.iter().find(|p| Some(p.position) == least).copied();
     SplitCurve {
         ends,

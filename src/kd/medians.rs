@@ -29,6 +29,6 @@ pub(super) fn object_median(centres: &mut [f64]) -> Option<f64> {
 
 /// From a to b in `count` + 1 equal steps, both ends included.
 pub(super) fn samples(a: f64, b: f64, count: u16) -> Vec<f64> {
-    let between = |i: u16| a + (b - a) * (f64::from(i) / f64::from(count + 1));
+    let between = |i: u16| a + (b - a) * (f64::from(i) / (f64::from(count) + 1.0));
     (0..=count).map(between).chain([b]).collect()
 }

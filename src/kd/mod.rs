@@ -4,22 +4,26 @@
 //! Nothing here knows files, clocks or random numbers. Predicted counts come from the boxes alone ([`predict()`]), or from the
 //! boxes and the objects' areas ([`expect`]), counted ones from the planes alone ([`traverse()`], [`stream`]).
 
+mod arena;
 pub mod ask;
 pub mod audit;
 pub mod build;
 mod clip;
 pub mod count;
 pub mod curve;
+mod events;
 pub mod expect;
 mod medians;
 pub mod octree;
 pub mod predict;
 pub mod probe;
 pub mod slice;
+mod split;
 pub mod stop;
 pub mod strategy;
 pub mod stream;
 mod sweep;
+mod tally;
 pub mod traverse;
 pub mod tree;
 

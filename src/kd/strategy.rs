@@ -122,6 +122,15 @@ impl Strategy {
         }
     }
 
+    /// Whether object bounds are candidates, so that every node needs them sorted.
+    pub(super) fn sweeps(self) -> bool {
+        let (_, positions) = self.parts();
+        matches!(
+            positions,
+            Positions::AllBounds | Positions::BoundsBetweenMedians
+        )
+    }
+
     pub(super) fn parts(self) -> (AxisOrder, Positions) {
         match self {
             Self::SpatialMedian => (AxisOrder::Cyclic, Positions::SpatialMedian),

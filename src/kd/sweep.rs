@@ -6,8 +6,9 @@
 
 use std::cmp::Ordering;
 
-use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis};
+
+use super::split::{Coster, Split};
 
 /// What happens to an object at a position. At equal positions ends come before planars before starts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -61,46 +62,26 @@ pub(super) fn sorted_events(bounds: &[Aabb], axis: Axis) -> Vec<Event> {
     events
 }
 
-/// A plane with its one-level cost.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Split {
-    pub axis: Axis,
-    pub position: f64,
-    /// Whether objects lying in the plane go left.
-    pub planar_left: bool,
-    /// Expected cost of the node cut here, its parts left as leaves.
-    pub cost: f64,
-}
-
 /// One axis of one node: what a sweep reads.
 pub(super) struct Sweep<'a> {
-    pub axis: Axis,
-    pub bounds: &'a Aabb,
     /// Events of the axis inside or on the node's box.
     pub events: &'a [Event],
     /// Objects in the node.
     pub n: usize,
-    pub cost: &'a CostModel,
-    /// Whether a plane that keeps all n objects on both sides is a candidate.
-    pub keep_useless: bool,
 }
 
 impl Sweep<'_> {
     /// The cheapest candidate; of equals the lowest. Candidates are the object bounds inside `window` and the positions
     /// `extra` (ascending), all strictly inside the node.
-    pub fn cheapest(&self, window: Option<(f64, f64)>, extra: &[f64]) -> Option<Split> {
-        let (lo, hi) = (self.bounds.lo[self.axis], self.bounds.hi[self.axis]);
-        let coster = Coster::new(self);
-        let mut best: Option<Split> = None;
+    pub fn cheapest(
+        &self,
+        coster: &Coster,
+        window: Option<(f64, f64)>,
+        extra: &[f64],
+    ) -> Option<Split> {
+        let mut best = None;
         self.each(window, extra, |s, left, planar, right| {
-            if !(lo < s && s < hi) {
-                return;
-            }
-            if let Some(split) = coster.split(s, left, planar, right)
-                && best.is_none_or(|b| split.cost < b.cost)
-            {
-                best = Some(split);
-            }
+            coster.offer(&mut best, s, left, planar, right);
         });
         best
     }
@@ -152,68 +133,5 @@ impl Sweep<'_> {
         for x in extra {
             offer(x, left, 0, right);
         }
-    }
-}
-
-/// The split cost on one axis as a function of the position and the counts.
-pub(super) struct Coster<'a> {
-    sweep: &'a Sweep<'a>,
-    lo: f64,
-    hi: f64,
-    /// Area of the cut and half its perimeter: a part of length x has SA = 2 (cut + x girth).
-    cut: f64,
-    girth: f64,
-    /// 2 / SA(node).
-    scale: f64,
-}
-
-impl<'a> Coster<'a> {
-    pub fn new(sweep: &'a Sweep<'a>) -> Self {
-        let k = sweep.axis;
-        let extent = sweep.bounds.extent();
-        Self {
-            sweep,
-            lo: sweep.bounds.lo[k],
-            hi: sweep.bounds.hi[k],
-            cut: extent[(k + 1) % 3] * extent[(k + 2) % 3],
-            girth: extent[(k + 1) % 3] + extent[(k + 2) % 3],
-            scale: 2.0 / sweep.bounds.surface_area(),
-        }
-    }
-
-    /// The split at s with `planar` objects on its cheaper side (left on a tie), or `None` if it is no candidate.
-    #[inline]
-    pub fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
-        let Sweep {
-            axis,
-            n,
-            cost,
-            keep_useless,
-            ..
-        } = *self.sweep;
-        let p_left = self.scale * (self.cut + (s - self.lo) * self.girth);
-        let p_right = self.scale * (self.cut + (self.hi - s) * self.girth);
-        let with = |l: usize, r: usize| {
-            let useless = l == n && r == n && !keep_useless;
-            (!useless).then(|| cost.split(p_left, l as f64, p_right, r as f64))
-        };
-        let on_left = with(left + planar, right);
-        let on_right = if planar > 0 {
-            with(left, right + planar)
-        } else {
-            None
-        };
-        let (planar_left, cost) = match (on_left, on_right) {
-            (Some(l), Some(r)) if r < l => (false, r),
-            (Some(l), _) => (true, l),
-            (None, Some(r)) => (false, r),
-            (None, None) => return None,
-        };
-        Some(Split {
-            axis,
-            position: s,
-            planar_left,
-            cost,
-        })
     }
 }
