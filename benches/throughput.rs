@@ -8,6 +8,7 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
+use glam::DVec3;
 use sahlab::archive::processor;
 use sahlab::cost::CostModel;
 use sahlab::files::write_atomic;
@@ -15,7 +16,7 @@ use sahlab::geom::{Line, Span};
 use sahlab::kd::stream::Streams;
 use sahlab::kd::traverse::traverse_line;
 use sahlab::kd::{Counts, NoProbe, Rules, Stack, Strategy, build};
-use sahlab::rays::SurfaceLines;
+use sahlab::rays::{PointSet, Sampler, SurfaceLines};
 use sahlab::scene::Scene;
 
 const ROUNDS: usize = 9;
@@ -32,6 +33,7 @@ fn main() {
     for stop in ["cost-gain", "objects:2:16"] {
         table += &rows(&scene, stop);
     }
+    table += &samplers(&scene);
     print!("{table}");
     let file = Path::new(env!("CARGO_MANIFEST_DIR")).join("data/bench/throughput.md");
     write_atomic(&file, table.as_bytes()).expect("data/bench can be written");
@@ -136,6 +138,44 @@ fn rows(scene: &Scene, stop: &str) -> String {
     for (strategy, least) in &builds {
         let what = format!("build, `{strategy}`");
         row(&what, scene.bounds.len() as f64, "triangles", least, None);
+    }
+    rows
+}
+
+/// The samplers: their points alone, and as lines. The ratio is that to independent points.
+fn samplers(scene: &Scene) -> String {
+    let mut jobs = Sampler::ALL.map(|sampler| {
+        let set = PointSet::new(sampler, 1, 0, sampler.nearest_size(LINES));
+        (sampler, set, [const { Least(f64::INFINITY) }; 2])
+    });
+    for _ in 0..ROUNDS {
+        for (sampler, set, [points, lines]) in &mut jobs {
+            let size = sampler.nearest_size(LINES);
+            points.time(|| {
+                set.range(0..size)
+                    .fold(0.0, |sum, u| sum + u[0] + u[1] + u[2] + u[3])
+            });
+            lines.time(|| {
+                let lines = set.lines(&scene.world, 0..size);
+                lines.fold(DVec3::ZERO, |sum, l| sum + l.origin + l.inverse)
+            });
+        }
+    }
+    let mut rows = "| **samplers of lines: the ratio is that to `random`** | | |\n".to_owned();
+    for (i, what) in ["points", "lines"].into_iter().enumerate() {
+        let rate = |(sampler, _, least): &(Sampler, PointSet, [Least; 2])| {
+            sampler.nearest_size(LINES) as f64 / least[i].0
+        };
+        let random = rate(&jobs[0]);
+        for job in &jobs {
+            let rate = rate(job);
+            rows += &format!(
+                "| {what}, `{}` | {:.2} M {what} | {:.2} |\n",
+                job.0,
+                1e-6 * rate,
+                rate / random
+            );
+        }
     }
     rows
 }

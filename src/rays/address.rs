@@ -19,6 +19,12 @@ pub enum Purpose {
     Checks = 3,
     /// Rays of sources that are no law of lines.
     Sources = 4,
+    /// Independent points of a replicate.
+    Replicates = 5,
+    /// Where in its cell a stratified point lies.
+    Strata = 6,
+    /// Keys that scramble a Sobol' sequence.
+    Scrambles = 7,
 }
 
 /// A generator for a seed and a purpose, at the start of its stream.
@@ -40,7 +46,13 @@ const WORDS: u128 = 8;
 impl Uniforms {
     /// The sequence of a seed, from index `i` on.
     pub fn starting_at(seed: u64, i: u64) -> Self {
-        let mut rng = generator(seed, Purpose::Lines);
+        Self::of_replicate(seed, Purpose::Lines, 0, i)
+    }
+
+    /// The sequence of a seed, a purpose and a replicate, from index `i` on. Replicates are independent.
+    pub fn of_replicate(seed: u64, purpose: Purpose, replicate: u64, i: u64) -> Self {
+        let mut rng = generator(seed, purpose);
+        rng.set_stream(replicate);
         rng.set_word_pos(WORDS * u128::from(i));
         Self { rng }
     }

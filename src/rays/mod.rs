@@ -2,14 +2,20 @@
 
 mod address;
 pub mod checks;
+mod conditional;
 pub mod file;
 mod laws;
+mod sampler;
+mod sobol;
 pub mod source;
+mod stratified;
 mod surface;
 mod surface_points;
 
 pub use address::{Purpose, Uniforms, generator};
+pub use conditional::Conditional;
 pub use laws::LineLaw;
+pub use sampler::{PointSet, Sampler};
 pub use source::{Source, SourceRays};
 pub use surface::{SurfaceLines, surface_line};
 pub use surface_points::SurfacePoints;
