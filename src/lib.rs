@@ -5,11 +5,12 @@
 //! (n_B) and object tests (n_t) a line meets in a kd-tree, and the tree's cost C = c_K n_K + c_B n_B + c_t n_t. This
 //! library builds the trees, draws the lines, counts, and compares, with an error beside every number.
 //!
-//! The layers, each using only those before it: [`geom`], [`cost`], [`stats`] and [`files`]; [`scene`]; [`rays`]; [`kd`];
+//! The layers, each using only those before it: [`geom`], [`cost`], [`stats`] and [`files`]; [`exact`]; [`scene`]; [`rays`]; [`kd`];
 //! [`tracer`]; [`study`]; [`report`], which knows only the study's records; [`archive`].
 
 pub mod archive;
 pub mod cost;
+pub mod exact;
 pub mod files;
 pub mod geom;
 pub mod kd;
