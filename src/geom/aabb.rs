@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Axis, Line, PADDING, Span};
+use super::{Axis, Line, PADDING, Span, slack};
 
 /// A closed axis-aligned box. `lo <= hi` holds on every axis; a box may be flat, a segment or a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -120,8 +120,8 @@ impl Aabb {
             };
             let near = line.t_at(k, near);
             let far = line.t_at(k, far);
-            t0 = t0.max(near - padding * near.abs());
-            t1 = t1.min(far + padding * far.abs());
+            t0 = t0.max(near - slack(padding, near));
+            t1 = t1.min(far + slack(padding, far));
         }
         (t0 <= t1).then_some(Span { t0, t1 })
     }

@@ -9,6 +9,17 @@ use super::{Aabb, Axis};
 /// Closed tests with this padding gave no mismatch against brute force on degenerate rays; counting uses none.
 pub const PADDING: f64 = 6.0 * f64::EPSILON;
 
+/// What a plane's parameter is widened by: `padding * |t|`; nothing for no padding, even where t has overflowed.
+#[inline(always)]
+pub fn slack(padding: f64, t: f64) -> f64 {
+    // 0 * inf is NaN, which would pass over the plane.
+    if padding == 0.0 {
+        0.0
+    } else {
+        padding * t.abs()
+    }
+}
+
 /// A closed range of the parameter t.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {

@@ -16,7 +16,7 @@ pub use aabb::Aabb;
 pub use cast::Cast;
 pub use clip::{Clipper, clip_slack};
 pub use cone::Cone;
-pub use line::{Line, PADDING, Ray, Span};
+pub use line::{Line, PADDING, Ray, Span, slack};
 pub use objects::{Object, Objects};
 pub use polygon::Polygon;
 pub use section::Piece;

@@ -5,7 +5,7 @@
 //! Near and far are told by the direction's sign, never by the origin's side. Unpadded, the visited nodes are exactly
 //! those whose closed boxes pass the slab test, bit for bit.
 
-use crate::geom::{Aabb, Line, Objects, PADDING, Ray, Span};
+use crate::geom::{Aabb, Line, Objects, PADDING, Ray, Span, slack};
 
 use super::{NoProbe, NodeKind, Probe, Tree, Turn};
 
@@ -81,7 +81,7 @@ pub fn traverse<M: Mode, P: Probe>(
                 let right_first = u32::from(line.inverse[axis] < 0.0);
                 let (near, far) = (left + right_first, left + 1 - right_first);
                 let t = line.t_at(axis, split);
-                let slack = M::PADDING * t.abs();
+                let slack = slack(M::PADDING, t);
                 if t - slack > t1 {
                     probe.turn(node, Turn::Near);
                     node = near;

@@ -8,14 +8,15 @@ mod csv;
 mod npy;
 
 use std::fmt;
-use std::fs::{self, File};
-use std::io::{self, BufReader};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader};
 use std::ops::RangeInclusive;
 use std::path::Path;
 
 use glam::DVec3;
 
 use crate::geom::{Cast, Span};
+use crate::scene::quotable;
 
 /// The columns, in this order; the last may be left out.
 pub const COLUMNS: [&str; 7] = ["ox", "oy", "oz", "dx", "dy", "dz", "tmax"];
@@ -55,9 +56,10 @@ pub struct Fault {
 }
 
 impl Fault {
-    fn new(wrong: impl Into<String>, right: impl Into<String>) -> Self {
+    /// `wrong` may quote the file.
+    fn new(wrong: impl AsRef<str>, right: impl Into<String>) -> Self {
         Self {
-            wrong: wrong.into(),
+            wrong: quotable(wrong.as_ref()),
             right: right.into(),
         }
     }
@@ -84,21 +86,46 @@ impl fmt::Display for Fault {
 /// If the file cannot be read, is of another kind, is damaged, or has a row that is no ray.
 pub fn read(path: &Path) -> Result<Vec<Cast>, RayFileError> {
     let name = path.display().to_string();
-    let unread = |source| RayFileError::Read {
-        path: name.clone(),
-        source,
-    };
-    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    let reader = reader(&name)?;
+    let file = File::open(path);
+    let file = file.map_err(|source| unread(&name, source))?;
+    reader(&name, &mut BufReader::new(file))
+}
+
+/// As [`read`], of a file's contents; its name tells the form and stands in errors.
+///
+/// # Errors
+/// As those of [`read`].
+pub fn parse(name: &str, mut contents: impl BufRead) -> Result<Vec<Cast>, RayFileError> {
+    reader(name)?(name, &mut contents)
+}
+
+/// Reads the contents of a file of this name.
+type Parse = fn(&str, &mut dyn BufRead) -> Result<Vec<Cast>, RayFileError>;
+
+/// What reads files that end like this one.
+fn reader(name: &str) -> Result<Parse, RayFileError> {
+    let extension = Path::new(name).extension();
+    let extension = extension.map(|e| e.to_string_lossy().to_lowercase());
     match extension.as_deref() {
-        Some("csv") => {
-            let file = File::open(path).map_err(unread)?;
-            csv::parse(&name, BufReader::new(file))
-        }
-        Some("npy") => npy::parse(&name, &fs::read(path).map_err(unread)?),
+        Some("csv") => Ok(csv::parse),
+        Some("npy") => Ok(|name, contents| {
+            let mut bytes = Vec::new();
+            let read = contents.read_to_end(&mut bytes);
+            read.map_err(|source| unread(name, source))?;
+            npy::parse(name, &bytes)
+        }),
         _ => {
             let right = "expected a file ending in .csv or .npy";
-            Err(Fault::new("is no file of rays", right).at(name))
+            Err(Fault::new("is no file of rays", right).at(name.into()))
         }
+    }
+}
+
+fn unread(name: &str, source: io::Error) -> RayFileError {
+    RayFileError::Read {
+        path: name.into(),
+        source,
     }
 }
 

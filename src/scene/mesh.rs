@@ -7,7 +7,7 @@ use std::borrow::Cow;
 use glam::DVec3;
 
 use super::draft::Draft;
-use super::{SceneError, plural};
+use super::{SceneError, plural, quotable};
 use crate::geom::{Objects, Triangle};
 
 /// What is wrong with a line or an element, before it is known where that is.
@@ -18,9 +18,10 @@ pub(super) struct Fault {
 }
 
 impl Fault {
-    pub(super) fn new(wrong: impl Into<String>, right: impl Into<String>) -> Self {
+    /// `wrong` may quote the file.
+    pub(super) fn new(wrong: impl AsRef<str>, right: impl Into<String>) -> Self {
         Self {
-            wrong: wrong.into(),
+            wrong: quotable(wrong.as_ref()),
             right: right.into(),
         }
     }

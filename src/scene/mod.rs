@@ -13,6 +13,7 @@ mod nff;
 mod obj;
 mod off;
 mod ply;
+mod quote;
 mod random;
 mod simple;
 mod spd;
@@ -27,6 +28,7 @@ use catalogue::{Make, Recipe, generate, unknown};
 use draft::Draft;
 pub use error::SceneError;
 pub use look::Look;
+pub(crate) use quote::quotable;
 use random::Random;
 pub(crate) use random::unit_interval;
 pub use spd::{SPD_GROUPS, spd_group, spd_scenes};
@@ -139,6 +141,15 @@ impl Scene {
         }
     }
 
+    /// The scene in a file's bytes; the path, one that ends in one of [`EXTENSIONS`], tells the format and names the scene.
+    ///
+    /// # Errors
+    /// If the path ends otherwise, or the bytes are no scene.
+    pub fn parse(path: &str, bytes: &[u8]) -> Result<Self, SceneError> {
+        let (draft, notes) = reader(path)?(path, bytes)?;
+        Self::from_draft(path, draft, notes)
+    }
+
     /// How many objects of each kind there are, e.g. `7381 spheres, 1 polygon`.
     pub fn counts(&self) -> String {
         let o = &self.objects;
@@ -160,25 +171,30 @@ impl Scene {
 /// Reads the bytes of a file of this name.
 type Parse = fn(&str, &[u8]) -> Result<(Draft, Vec<String>), SceneError>;
 
-fn read(path: &str) -> Result<Scene, SceneError> {
+/// What reads files that end like this one.
+fn reader(path: &str) -> Result<Parse, SceneError> {
     let extension = std::path::Path::new(path)
         .extension()
         .map(|e| e.to_string_lossy().to_lowercase());
-    let parse: Parse = match extension.as_deref() {
-        Some("nff") => nff::parse,
-        Some("obj") => |path, bytes| Ok(obj::parse(path, bytes)?.into_draft()),
-        Some("off") => |path, bytes| Ok(off::parse(path, bytes)?.into_draft()),
-        Some("ply") => |path, bytes| Ok(ply::parse(path, bytes)?.into_draft()),
-        Some("stl") => |path, bytes| Ok(stl::parse(path, bytes)?.into_draft()),
-        Some(other) => return Err(unknown(path, format!("cannot read .{other} files"))),
-        None => return Err(unknown(path, "no such scene".into())),
-    };
+    match extension.as_deref() {
+        Some("nff") => Ok(nff::parse),
+        Some("obj") => Ok(|path, bytes| Ok(obj::parse(path, bytes)?.into_draft())),
+        Some("off") => Ok(|path, bytes| Ok(off::parse(path, bytes)?.into_draft())),
+        Some("ply") => Ok(|path, bytes| Ok(ply::parse(path, bytes)?.into_draft())),
+        Some("stl") => Ok(|path, bytes| Ok(stl::parse(path, bytes)?.into_draft())),
+        Some(other) => Err(unknown(path, format!("cannot read .{other} files"))),
+        None => Err(unknown(path, "no such scene".into())),
+    }
+}
+
+fn read(path: &str) -> Result<Scene, SceneError> {
+    // Before the file is looked for: a misspelt name of a scene is no missing file.
+    reader(path)?;
     let bytes = std::fs::read(path).map_err(|source| SceneError::Read {
         path: path.into(),
         source,
     })?;
-    let (draft, notes) = parse(path, &bytes)?;
-    Scene::from_draft(path, draft, notes)
+    Scene::parse(path, &bytes)
 }
 
 /// Refuses coordinates that are not finite and radii that are not positive.

@@ -8,6 +8,7 @@ use std::collections::BTreeMap;
 use glam::DVec3;
 
 use super::mesh::{Faces, Fault, Mesh, lines, numbers, without_comment};
+use super::quote::within;
 use super::{SceneError, plural};
 
 /// Keywords that carry no face and are passed over without a word.
@@ -24,13 +25,24 @@ pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Mesh, SceneError> {
 
     let mut lines = lines(bytes).map_err(|f| f.at(path, 1))?;
     while let Some((line, text)) = lines.next() {
-        let mut text = text;
         // A comment ends the line: it cannot be continued, and may itself end with a backslash.
-        while !text.contains('#')
-            && let Some(head) = text.trim_end().strip_suffix('\\')
-        {
-            let next = lines.next().map(|(_, next)| next).unwrap_or_default();
-            text = format!("{head} {next}").into();
+        let head = |text: &str| {
+            let head = text.trim_end().strip_suffix('\\')?;
+            (!text.contains('#')).then(|| head.to_owned() + " ")
+        };
+        let mut text = text;
+        if let Some(mut whole) = head(&text) {
+            // Piece by piece, so that a file of backslashes takes no longer than another.
+            while let Some((_, next)) = lines.next() {
+                match head(&next) {
+                    Some(piece) => whole += &piece,
+                    None => {
+                        whole += &next;
+                        break;
+                    }
+                }
+            }
+            text = whole.into();
         }
         let mut words = without_comment(&text).split_whitespace();
         match words.next() {
@@ -53,13 +65,37 @@ pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Mesh, SceneError> {
     faces
         .into_mesh(&mut mesh)
         .map_err(|(line, f)| f.at(path, line))?;
-    for (keyword, [count, first]) in unknown {
-        mesh.notes.push(format!(
-            "{} with the unknown keyword '{keyword}' passed over, the first at line {first}",
-            plural(count, "line")
+    mesh.notes.extend(passed_over(unknown));
+    Ok(mesh)
+}
+
+/// Unknown keywords told one by one: what is no OBJ file may have thousands.
+const TOLD: usize = 4;
+
+/// Notes on unknown keywords, in the order of their first lines.
+fn passed_over(unknown: BTreeMap<String, [usize; 2]>) -> Vec<String> {
+    let mut unknown: Vec<_> = unknown.into_iter().collect();
+    unknown.sort_by_key(|&(_, [_, first])| first);
+    let (told, others) = unknown.split_at(unknown.len().min(TOLD));
+    let mut notes: Vec<_> = told
+        .iter()
+        .map(|(keyword, [count, first])| {
+            format!(
+                "{} with the unknown keyword '{}' passed over, the first at line {first}",
+                plural(*count, "line"),
+                within(keyword, 40)
+            )
+        })
+        .collect();
+    if !others.is_empty() {
+        let lines = others.iter().map(|(_, [count, _])| count).sum();
+        notes.push(format!(
+            "{} with {} passed over",
+            plural(lines, "line"),
+            plural(others.len(), "other unknown keyword")
         ));
     }
-    Ok(mesh)
+    notes
 }
 
 /// x y z, and perhaps a weight or a colour, which are passed over.

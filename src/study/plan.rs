@@ -18,6 +18,7 @@ use toml::de::{DeTable, Deserializer};
 
 use crate::cost::CostModel;
 use crate::kd::{StopRule, Strategy};
+use crate::scene::quotable;
 
 use super::assumptions::Assumptions;
 use super::cost_vs_work::CostVsWork;
@@ -168,7 +169,7 @@ impl Plan {
             |e: toml::de::Error| at(e.span().map_or(0, |s| s.start), one_line(e.message()));
         let value = |message: &str| PlanError::Value {
             path: path.into(),
-            message: message.into(),
+            message: quotable(message),
         };
         let mut table = DeTable::parse(text).map_err(syntax)?;
         let quick = table.get_mut().remove("quick");

@@ -3,18 +3,15 @@
 
 use std::io::BufRead;
 
-use super::{COLUMNS, Fault, RayFileError, cast};
+use super::{COLUMNS, Fault, RayFileError, cast, unread};
 use crate::geom::Cast;
 
 /// The rays of a file's text; `name` names it in errors.
-pub(super) fn parse(name: &str, text: impl BufRead) -> Result<Vec<Cast>, RayFileError> {
+pub(super) fn parse(name: &str, text: &mut dyn BufRead) -> Result<Vec<Cast>, RayFileError> {
     let mut wanted = None;
     let mut casts = Vec::new();
     for (i, line) in text.split(b'\n').enumerate() {
-        let line = line.map_err(|source| RayFileError::Read {
-            path: name.into(),
-            source,
-        })?;
+        let line = line.map_err(|source| unread(name, source))?;
         let at = |fault: Fault| fault.at(format!("{name}:{}", i + 1));
         let line = std::str::from_utf8(&line);
         let line = line.map_err(|_| at(Fault::new("not UTF-8", "expected text")))?;
@@ -41,7 +38,7 @@ fn fields_of_header(line: &str) -> Result<usize, Fault> {
     }
 }
 
-fn wrong_header(wrong: impl Into<String>) -> Fault {
+fn wrong_header(wrong: impl AsRef<str>) -> Fault {
     let [without, with] = [6, 7].map(|n| COLUMNS[..n].join(","));
     Fault::new(wrong, format!("expected '{without}' or '{with}'"))
 }

@@ -3,7 +3,7 @@ use super::*;
 const HEAD: &str = "ox,oy,oz,dx,dy,dz,tmax\n";
 
 fn csv(text: &str) -> Result<Vec<Cast>, String> {
-    csv::parse("r.csv", text.as_bytes()).map_err(|error| error.to_string())
+    csv::parse("r.csv", &mut text.as_bytes()).map_err(|error| error.to_string())
 }
 
 fn npy(bytes: &[u8]) -> Result<Vec<Cast>, String> {

@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
+use crate::scene::quotable;
+
 /// A value that makes no sense.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[error("{message}")]
@@ -69,7 +71,7 @@ impl PlanError {
             path: path.into(),
             line: before.matches('\n').count() + 1,
             column: before[line_start..].chars().count() + 1,
-            message,
+            message: quotable(&message),
         }
     }
 }
