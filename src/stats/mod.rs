@@ -26,6 +26,7 @@ pub mod quantile;
 pub mod rank;
 pub mod regression;
 pub mod tails;
+pub mod uniform;
 
 pub use binomial::binomial_tail;
 pub use bootstrap::cluster_bootstrap;
@@ -37,3 +38,4 @@ pub use quantile::{median, quantile, quantile_of_sorted};
 pub use rank::{Pairs, Taken, concordant, kendall_tau_b, spearman_rho, take_least};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};
 pub use tails::{f_tail, normal_p, normal_quantile, simultaneous_quantile, student_p};
+pub use uniform::uniform_p;

@@ -29,7 +29,8 @@ const MOST: u64 = 1 << 24;
 /// Standard errors by which the variance is taken larger, and the mean smaller, than the trial shows them.
 const CAUTION: f64 = 3.3;
 
-/// A variance known to this share ends the trial: at most so many lines are counted in vain.
+/// A variance known to this share, and a mean known to a quarter of it, end the trial: at most a third of the lines are then
+/// more than needed.
 const KNOWN: f64 = 0.2;
 
 /// A trial of this share of the lines it asks for ends, too.
@@ -113,7 +114,8 @@ fn asked(error: f64, trial: &ScoreMoments<2>) -> Asked {
     // Variance of (C - mean)^2, so that of the sample's variance.
     let of_variance = of_square - 4.0 * mean * with_square + 4.0 * mean * mean * variance;
     let uncertain = CAUTION * (of_variance.max(0.0) / n).sqrt();
-    let least_mean = mean - CAUTION * (variance / n).sqrt();
+    let off = CAUTION * (variance / n).sqrt();
+    let least_mean = mean - off;
     let z = normal_quantile(CONFIDENCE);
     let lines = if least_mean > 0.0 {
         z * z * (variance + uncertain) / (error * error * least_mean * least_mean)
@@ -122,7 +124,7 @@ fn asked(error: f64, trial: &ScoreMoments<2>) -> Asked {
     };
     Asked {
         lines,
-        known: uncertain <= KNOWN * variance,
+        known: uncertain <= KNOWN * variance && off <= 0.25 * KNOWN * mean,
     }
 }
 
@@ -204,8 +206,8 @@ mod tests {
 
     #[test]
     fn lines_that_miss_are_made_up_for() {
-        let all = needed(0.01, [1, 1 << 30], |i, _| two_valued(i, 2)) as f64;
-        let half = needed(0.01, [1, 1 << 30], |i, _| {
+        let all = needed(0.001, [1, 1 << 30], |i, _| two_valued(i, 2)) as f64;
+        let half = needed(0.001, [1, 1 << 30], |i, _| {
             two_valued(i / 2, 2).filter(|_| i % 2 == 0)
         });
         let ratio = half as f64 / all;

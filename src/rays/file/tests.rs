@@ -116,7 +116,7 @@ fn wrong_text_is_told_with_its_line() {
         assert!(!error.contains('\n'));
     }
     let bytes = [HEAD.as_bytes(), b"1,2,3,4,5,6,\n1,2,3,\xff,5,6,\n"].concat();
-    let error = csv::parse("r.csv", &bytes[..]).expect_err("not text");
+    let error = csv::parse("r.csv", &mut &bytes[..]).expect_err("not text");
     assert!(
         error.to_string().starts_with("r.csv:3: not UTF-8"),
         "{error}"
