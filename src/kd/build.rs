@@ -15,7 +15,8 @@ use crate::geom::{Aabb, Axis, Objects};
 use super::arena::spread;
 use super::clip::Clipping;
 use super::events::EventLists;
-use super::medians::{clipped_centre, object_median, samples, spatial_median};
+use super::medians::{clipped_centre, object_median, spatial_median};
+use super::planes::{Fractions, Planes};
 use super::split::{Coster, Split};
 use super::strategy::{AxisOrder, Positions};
 use super::sweep::Sweep;
@@ -97,6 +98,7 @@ fn build_over(
         );
     }
     let objects = u32::try_from(bounds.len()).expect("more than 2^32 objects");
+    let fractions = rules.strategy.parts().1.fractions();
     let mut builder = Builder {
         bounds: Cow::Borrowed(bounds),
         rules,
@@ -111,7 +113,8 @@ fn build_over(
         },
         objects: (0..objects).collect(),
         events: sweeps.then(|| EventLists::new(bounds)),
-        tally: Tally::default(),
+        tallies: [(); 3].map(|()| Tally::new(&fractions)),
+        fractions,
         sides: vec![0; bounds.len()],
         centres: Vec::new(),
         clipping,
@@ -147,8 +150,10 @@ struct Builder<'a> {
     objects: Vec<u32>,
     /// Sorted events, likewise, where the rules sweep.
     events: Option<EventLists>,
-    /// Scratch: counts at planes, where they do not.
-    tally: Tally,
+    /// Where the strategy's named planes are, between its ends.
+    fractions: Fractions,
+    /// Scratch: counts at these planes by axis, where the rules do not sweep.
+    tallies: [Tally; 3],
     /// Sides of the current split an object goes to: bit 0 left, bit 1 right.
     sides: Vec<u8>,
     /// Scratch: centres of clipped bounds.
@@ -216,89 +221,87 @@ impl Builder<'_> {
         if path.depth >= self.depth_bound || stop.stops_at(path.depth, n, share) {
             return None;
         }
-        let (order, positions) = strategy.parts();
-        let all_compete = order == AxisOrder::All;
-        let mut best: Option<Split> = None;
-        for axis in order.axes(path.depth, bounds) {
-            let candidate = self.cheapest(bounds, axis, region, positions);
-            if let Some(split) = candidate
-                && best.is_none_or(|b| split.cost < b.cost)
-            {
-                best = Some(split);
-            }
-            if best.is_some() && !all_compete {
-                break;
-            }
-        }
-        let split = best?;
+        let (order, _) = strategy.parts();
+        let axes = order.axes(path.depth, bounds);
+        let split = if order == AxisOrder::All {
+            self.cheapest(bounds, &axes, region)
+        } else {
+            axes.iter()
+                .find_map(|&axis| self.cheapest(bounds, &[axis], region))
+        }?;
         let patience = stop.cuts(split.cost, cost.leaf(n as f64), path.patience)?;
         Some((split, patience))
     }
 
-    /// The strategy's cheapest plane on one axis.
-    fn cheapest(
-        &mut self,
-        bounds: &Aabb,
-        axis: Axis,
-        region: Region,
-        positions: Positions,
-    ) -> Option<Split> {
-        let (window, planes) = self.candidates(bounds, axis, region, positions)?;
+    /// The strategy's cheapest plane on these axes; of equals the first axis's.
+    fn cheapest(&mut self, bounds: &Aabb, axes: &[Axis], region: Region) -> Option<Split> {
+        let (_, positions) = self.rules.strategy.parts();
+        let mut ends = [None; 3];
+        for &axis in axes {
+            ends[axis] = self.ends(bounds, axis, region, positions);
+        }
+        let planes = ends.map(|e| e.map(|(from, to)| Planes::new(from, to, &self.fractions)));
         let objects = &self.objects[region.objects..];
+        if self.events.is_none() {
+            for &object in objects {
+                let b = &self.bounds[object as usize];
+                for &axis in axes {
+                    if let Some(planes) = &planes[axis] {
+                        self.tallies[axis].add(planes, b.lo[axis], b.hi[axis]);
+                    }
+                }
+            }
+        }
         let n = objects.len();
         let Rules { stop, cost, .. } = self.rules;
-        let coster = Coster::new(axis, bounds, n, cost, stop.takes_useless_planes());
-        if let Some(events) = &self.events {
-            let events = events.on(axis, region.events[axis]);
-            return Sweep { events, n }.cheapest(&coster, window, &planes);
+        let mut best: Option<Split> = None;
+        for &axis in axes {
+            let Some(planes) = &planes[axis] else {
+                continue;
+            };
+            let coster = Coster::new(axis, bounds, n, cost, stop.takes_useless_planes());
+            let split = if let Some(events) = &self.events {
+                let events = events.on(axis, region.events[axis]);
+                let window = positions.are_bounds().then_some(ends[axis]).flatten();
+                // Medians that meet, and planes between nearly equal positions, are one candidate.
+                let mut named: Vec<f64> = planes.iter().collect();
+                named.dedup();
+                Sweep { events, n }.cheapest(&coster, window, &named)
+            } else {
+                self.tallies[axis].cheapest(planes, &coster, n)
+            };
+            if let Some(split) = split
+                && best.is_none_or(|b| split.cost < b.cost)
+            {
+                best = Some(split);
+            }
         }
-        self.tally.restart(&planes, &coster);
-        for &object in objects {
-            let b = &self.bounds[object as usize];
-            self.tally.add(b.lo[axis], b.hi[axis]);
-        }
-        self.tally.cheapest(&coster, n)
+        best
     }
 
-    /// The strategy's candidates on one axis: a window whose object bounds are all candidates, and positions, ascending.
-    fn candidates(
+    /// Between which positions on an axis the strategy's candidates are.
+    fn ends(
         &mut self,
         bounds: &Aabb,
         axis: Axis,
         region: Region,
         positions: Positions,
-    ) -> Option<(Option<(f64, f64)>, Vec<f64>)> {
+    ) -> Option<(f64, f64)> {
         let spatial = spatial_median(bounds, axis);
         let mut medians = || {
             self.object_median(bounds, axis, region)
                 .map(|object| (spatial.min(object), spatial.max(object)))
         };
-        let mut window = None;
-        let mut planes = match positions {
-            Positions::AllBounds => {
-                window = Some((bounds.lo[axis], bounds.hi[axis]));
-                vec![]
-            }
-            Positions::SpatialMedian => vec![spatial],
-            Positions::ObjectMedian => vec![self.object_median(bounds, axis, region)?],
-            Positions::MedianMidpoint => {
-                let (a, b) = medians()?;
-                vec![0.5 * a + 0.5 * b]
-            }
-            Positions::BoundsBetweenMedians => {
-                let (a, b) = medians()?;
-                window = Some((a, b));
-                vec![a, b]
-            }
-            Positions::Samples(count) => {
-                let (a, b) = medians()?;
-                samples(a, b, count)
-            }
-        };
-        // Medians that meet, and samples between nearly equal ones, are one candidate; -0 and +0 are +0, as in events.
-        planes.dedup();
-        planes.iter_mut().for_each(|s| *s += 0.0);
-        Some((window, planes))
+        match positions {
+            Positions::AllBounds | Positions::Bins(_) => Some((bounds.lo[axis], bounds.hi[axis])),
+            Positions::SpatialMedian => Some((spatial, spatial)),
+            Positions::ObjectMedian => self.object_median(bounds, axis, region).map(|s| (s, s)),
+            Positions::MedianMidpoint => medians().map(|(a, b)| {
+                let s = 0.5 * a + 0.5 * b;
+                (s, s)
+            }),
+            Positions::BoundsBetweenMedians | Positions::Samples(_) => medians(),
+        }
     }
 
     /// Median of the centres of the objects' bounds clipped to the node.

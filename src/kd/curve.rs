@@ -5,7 +5,8 @@ use std::ops::RangeInclusive;
 use crate::cost::CostModel;
 use crate::geom::{Aabb, Axis};
 
-use super::medians::{clipped_centre, object_median, samples, spatial_median};
+use super::medians::{clipped_centre, object_median, spatial_median};
+use super::planes::{Fractions, Planes};
 use super::split::Coster;
 use super::sweep::{Sweep, sorted_events};
 use super::{NodeKind, Tree};
@@ -87,12 +88,10 @@ pub fn split_curve(
     let spatial_median = spatial_median(node, axis);
     let object_median = object_median(&mut centres);
     centres.sort_unstable_by(f64::total_cmp);
+    let fractions = Fractions::samples(count);
     let samples = object_median.map_or(vec![], |object| {
-        samples(
-            spatial_median.min(object),
-            spatial_median.max(object),
-            count,
-        )
+        let (a, b) = (spatial_median.min(object), spatial_median.max(object));
+        Planes::new(a, b, &fractions).iter().collect()
     });
 
     let point = |s: f64, left: usize, planar: usize, right: usize| {

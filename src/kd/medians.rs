@@ -1,4 +1,4 @@
-//! The two medians of a node on one axis, and the samples between them.
+//! The two medians of a node on one axis.
 
 use crate::geom::{Aabb, Axis};
 
@@ -25,10 +25,4 @@ pub(super) fn object_median(centres: &mut [f64]) -> Option<f64> {
     }
     let lower = below.iter().copied().fold(f64::NEG_INFINITY, f64::max);
     Some(0.5 * lower + 0.5 * upper)
-}
-
-/// From a to b in `count` + 1 equal steps, both ends included.
-pub(super) fn samples(a: f64, b: f64, count: u16) -> Vec<f64> {
-    let between = |i: u16| a + (b - a) * (f64::from(i) / (f64::from(count) + 1.0));
-    (0..=count).map(between).chain([b]).collect()
 }

@@ -15,6 +15,7 @@ mod events;
 pub mod expect;
 mod medians;
 pub mod octree;
+mod planes;
 pub mod predict;
 pub mod probe;
 pub mod slice;

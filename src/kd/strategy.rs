@@ -7,6 +7,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::geom::{Aabb, Axis};
 
+use super::planes::Fractions;
+
 /// The rule that picks a node's plane. When to stop and where straddlers go is the same for all of them.
 ///
 /// b_rm is the spatial median (middle of the node), b_om the object median (median of the centres of the objects'
@@ -29,6 +31,9 @@ pub enum Strategy {
     MedianMidpoint,
     /// 7: least cost over all axes, this many planes equally spaced between the medians and both medians.
     SahSamples(u16),
+    /// Least cost over all axes, the planes between this many (2 or more) equal bins of the node. Not one of
+    /// [`ALL`](Self::ALL): of the bins only the number tells one from another.
+    SahBins(u16),
     /// 1 on the longest axis.
     SpatialMedianLongest,
     /// 2 on the longest axis.
@@ -59,6 +64,7 @@ pub(super) enum Positions {
     AllBounds,
     BoundsBetweenMedians,
     Samples(u16),
+    Bins(u16),
 }
 
 /// Planes between the medians when none are given: as many as Havran's reading of MacDonald & Booth takes.
@@ -91,6 +97,7 @@ impl Strategy {
             Self::MedianMidpoint => "median-midpoint",
             Self::SahSamples(SAMPLES) => "sah-samples",
             Self::SahSamples(n) => return format!("sah-samples:{n}"),
+            Self::SahBins(n) => return format!("sah-bins:{n}"),
             Self::SpatialMedianLongest => "spatial-median-longest",
             Self::ObjectMedianLongest => "object-median-longest",
             Self::SahLongest => "sah-longest",
@@ -115,6 +122,11 @@ impl Strategy {
                     "7: least cost over all axes, {n} planes spaced between the two medians (sah-samples:N for another N)"
                 )
             }
+            Self::SahBins(n) => {
+                format!(
+                    "least cost over all axes, the planes between {n} equal bins of the node (sah-bins:N for another N)"
+                )
+            }
             Self::SpatialMedianLongest => "1 on the longest axis".into(),
             Self::ObjectMedianLongest => "2 on the longest axis".into(),
             Self::SahLongest => "5 on the longest axis".into(),
@@ -122,13 +134,9 @@ impl Strategy {
         }
     }
 
-    /// Whether object bounds are candidates, so that every node needs them sorted.
-    pub(super) fn sweeps(self) -> bool {
-        let (_, positions) = self.parts();
-        matches!(
-            positions,
-            Positions::AllBounds | Positions::BoundsBetweenMedians
-        )
+    /// Whether nodes need their objects' bounds sorted.
+    pub fn sweeps(self) -> bool {
+        self.parts().1.are_bounds()
     }
 
     pub(super) fn parts(self) -> (AxisOrder, Positions) {
@@ -140,10 +148,30 @@ impl Strategy {
             Self::SahCyclic => (AxisOrder::Cyclic, Positions::AllBounds),
             Self::MedianMidpoint => (AxisOrder::Cyclic, Positions::MedianMidpoint),
             Self::SahSamples(n) => (AxisOrder::All, Positions::Samples(n)),
+            Self::SahBins(n) => (AxisOrder::All, Positions::Bins(n)),
             Self::SpatialMedianLongest => (AxisOrder::Longest, Positions::SpatialMedian),
             Self::ObjectMedianLongest => (AxisOrder::Longest, Positions::ObjectMedian),
             Self::SahLongest => (AxisOrder::Longest, Positions::AllBounds),
             Self::MedianMidpointLongest => (AxisOrder::Longest, Positions::MedianMidpoint),
+        }
+    }
+}
+
+impl Positions {
+    /// Whether the objects' bounds are candidates, wherever they are.
+    pub fn are_bounds(self) -> bool {
+        matches!(self, Self::AllBounds | Self::BoundsBetweenMedians)
+    }
+
+    /// Where the other candidates are, between the node's faces or the medians.
+    pub fn fractions(self) -> Fractions {
+        match self {
+            Self::AllBounds => Fractions::none(),
+            Self::SpatialMedian | Self::ObjectMedian | Self::MedianMidpoint => Fractions::one(),
+            // Both medians.
+            Self::BoundsBetweenMedians => Fractions::samples(0),
+            Self::Samples(count) => Fractions::samples(count),
+            Self::Bins(count) => Fractions::bins(count),
         }
     }
 }
@@ -175,14 +203,20 @@ impl FromStr for Strategy {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        if let Some(n) = text.strip_prefix("sah-samples:") {
-            return match n.parse() {
-                Ok(n) if n > 0 => Ok(Self::SahSamples(n)),
+        let number = |of: &str, what: &str, least: u16| {
+            text.strip_prefix(of).map(|n| match n.parse() {
+                Ok(n) if n >= least => Ok(n),
                 _ => Err(format!(
-                    "'{text}': the number of samples must be 1 to {}",
+                    "'{text}': the number of {what} must be {least} to {}",
                     u16::MAX
                 )),
-            };
+            })
+        };
+        if let Some(n) = number("sah-samples:", "samples", 1) {
+            return n.map(Self::SahSamples);
+        }
+        if let Some(n) = number("sah-bins:", "bins", 2) {
+            return n.map(Self::SahBins);
         }
         Self::ALL
             .into_iter()
@@ -190,7 +224,7 @@ impl FromStr for Strategy {
             .ok_or_else(|| {
                 let names: Vec<String> = Self::ALL.iter().map(|s| s.name()).collect();
                 format!(
-                    "unknown strategy '{text}', expected one of {}",
+                    "unknown strategy '{text}', expected one of {}, sah-bins:N",
                     names.join(", ")
                 )
             })
@@ -217,10 +251,18 @@ mod tests {
 
     #[test]
     fn names_read_back() {
-        for s in Strategy::ALL.into_iter().chain([Strategy::SahSamples(3)]) {
+        let numbered = [Strategy::SahSamples(3), Strategy::SahBins(2)];
+        for s in Strategy::ALL.into_iter().chain(numbered) {
             assert_eq!(s.name().parse(), Ok(s));
         }
-        assert!("sah-samples:0".parse::<Strategy>().is_err());
+        for wrong in [
+            "sah-samples:0",
+            "sah-samples:65536",
+            "sah-bins:1",
+            "sah-bins",
+        ] {
+            assert!(wrong.parse::<Strategy>().is_err(), "{wrong}");
+        }
         let message = "sahh".parse::<Strategy>().expect_err("no such strategy");
         assert!(message.contains("sah-between-medians"), "{message}");
     }

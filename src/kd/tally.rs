@@ -3,17 +3,21 @@
 //! A strategy whose candidates are positions, not object bounds, needs no sorted events: each box is put between the
 //! planes where it begins and ends, and sums over the planes tell the rest (the binning of Wald 2007, exact at the planes).
 
+use std::ops::Range;
+
+use super::planes::{Fractions, Planes};
 use super::split::{Coster, Split};
 
-/// Counts left of, in and right of planes.
-#[derive(Default)]
+/// Relative error that the computed costs of two planes may have together: each takes some ten roundings of numbers that
+/// are not negative, of 2^-53 each.
+const ROUNDING: f64 = 1e-14;
+
+/// Counts left of, in and right of planes. Empty between two uses.
 pub(super) struct Tally {
-    /// Ascending, distinct, strictly inside the node.
-    planes: Vec<f64>,
-    /// Planes per length, to guess how many lie below a position.
-    density: f64,
     /// What is new at each plane; one more for what is new behind the last.
     changes: Vec<Change>,
+    /// Which of them are not zero: bit i mod 64 of word i / 64.
+    changed: Vec<u64>,
 }
 
 /// Objects whose side changes from one plane to the next.
@@ -28,61 +32,91 @@ struct Change {
 }
 
 impl Tally {
-    /// Begin anew with these planes, ascending; those that do not part the node are left out.
-    pub fn restart(&mut self, planes: &[f64], coster: &Coster) {
-        self.planes.clear();
-        let inside = planes.iter().copied().filter(|&s| coster.is_inside(s));
-        self.planes.extend(inside);
-        self.density = match self.planes[..] {
-            [first, .., last] => (self.planes.len() - 1) as f64 / (last - first),
-            _ => 0.0,
-        };
-        self.changes.clear();
-        self.changes
-            .resize(self.planes.len() + 1, Change::default());
+    pub fn new(fractions: &Fractions) -> Self {
+        let planes = fractions.len();
+        Self {
+            changes: vec![Change::default(); planes + 1],
+            changed: vec![0; planes / 64 + 1],
+        }
     }
 
     /// Count an object that reaches from `lo` to `hi`.
     #[inline]
-    pub fn add(&mut self, lo: f64, hi: f64) {
+    pub fn add(&mut self, planes: &Planes, lo: f64, hi: f64) {
         // It is on the left of the planes from `begun` on, on the right of those before `ended`.
-        let begun = self.planes_below(|s| s <= lo, lo);
-        let ended = self.planes_below(|s| s < hi, hi);
-        self.changes[begun].begun += 1;
-        self.changes[ended].ended += 1;
-        if begun > ended {
-            self.changes[ended].planar += 1;
+        let begun = planes.count_below(lo, |s| s <= lo);
+        let ended = planes.count_below(hi, |s| s < hi);
+        self.at(begun).begun += 1;
+        self.at(ended).ended += 1;
+        for plane in ended..begun {
+            self.at(plane).planar += 1;
         }
     }
 
-    /// How many planes are `below` the position x: guessed as if they were equally spaced, which they nearly are, and put
-    /// right.
     #[inline]
-    fn planes_below(&self, below: impl Fn(f64) -> bool, x: f64) -> usize {
-        let Some(&first) = self.planes.first() else {
-            return 0;
-        };
-        // The cast takes what is negative or not a number to 0.
-        let mut found = (((x - first) * self.density) as usize).min(self.planes.len());
-        while found < self.planes.len() && below(self.planes[found]) {
-            found += 1;
-        }
-        while found > 0 && !below(self.planes[found - 1]) {
-            found -= 1;
-        }
-        found
+    fn at(&mut self, i: usize) -> &mut Change {
+        self.changed[i / 64] |= 1 << (i % 64);
+        &mut self.changes[i]
     }
 
-    /// The cheapest plane, of equals the lowest, for a node of `n` objects.
-    pub fn cheapest(&self, coster: &Coster, n: usize) -> Option<Split> {
-        let (mut left, mut right) = (0, n);
+    /// The cheapest plane, of equals the lowest, for a node of `n` objects. Empties the tally.
+    pub fn cheapest(&mut self, planes: &Planes, coster: &Coster, n: usize) -> Option<Split> {
         let mut best = None;
-        for (&s, change) in self.planes.iter().zip(&self.changes) {
-            left += change.begun as usize;
-            right -= change.ended as usize;
-            let planar = change.planar as usize;
-            coster.offer(&mut best, s, left, planar, right);
+        let (mut first, mut left, mut planar, mut right) = (0, 0, 0, n);
+        for (i, word) in self.changed.iter_mut().enumerate() {
+            while *word != 0 {
+                let next = 64 * i + word.trailing_zeros() as usize;
+                *word &= *word - 1;
+                offer_run(
+                    &mut best,
+                    planes,
+                    coster,
+                    first..next,
+                    [left, planar, right],
+                );
+                let change = std::mem::take(&mut self.changes[next]);
+                left += change.begun as usize;
+                right -= change.ended as usize;
+                planar = change.planar as usize;
+                first = next;
+            }
         }
+        let run = first..planes.len();
+        offer_run(&mut best, planes, coster, run, [left, planar, right]);
         best
+    }
+}
+
+/// Offer planes with the same counts.
+///
+/// Between such planes the cost is linear, so that but for rounding none costs less than both ends. Where it may, all are
+/// looked at, so that the choice is what it would be if all always were.
+#[inline]
+fn offer_run(
+    best: &mut Option<Split>,
+    planes: &Planes,
+    coster: &Coster,
+    run: Range<usize>,
+    [left, planar, right]: [usize; 3],
+) {
+    let offer = |best: &mut Option<Split>, i: usize| {
+        coster.offer(best, planes.at(i), left, planar, right);
+    };
+    if run.len() > 4 {
+        let mut of_ends = *best;
+        offer(&mut of_ends, run.start);
+        offer(&mut of_ends, run.end - 1);
+        // All others lie between these two.
+        let inner = [run.start + 1, run.end - 2];
+        let costs = inner.map(|i| coster.split(planes.at(i), left, planar, right));
+        if let ([Some(a), Some(b)], Some(ends)) = (costs, of_ends)
+            && a.cost.min(b.cost) * (1.0 - ROUNDING) > ends.cost
+        {
+            *best = of_ends;
+            return;
+        }
+    }
+    for i in run {
+        offer(best, i);
     }
 }

@@ -276,7 +276,8 @@ fn list(what: Option<Listed>) -> String {
         "a file: .obj, .ply, .stl, .off or .nff".into(),
     ));
     section(Listed::Scenes, "scenes", scenes);
-    let strategies = Strategy::ALL.iter().map(|s| (s.name(), s.description()));
+    let strategies = Strategy::ALL.into_iter().chain([Strategy::SahBins(32)]);
+    let strategies = strategies.map(|s| (s.name(), s.description()));
     section(Listed::Strategies, "strategies", strategies.collect());
     let laws = LineLaw::EXACT.iter().chain(&LineLaw::WRONG);
     let laws = laws.map(|l| (l.name().into(), l.description().into()));

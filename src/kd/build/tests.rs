@@ -4,6 +4,7 @@ use glam::DVec3;
 
 use super::*;
 use crate::geom::Triangle;
+use crate::kd::NodeKind;
 
 /// Numbers that need not be random, only many and various (SplitMix64).
 struct Numbers(u64);
@@ -53,7 +54,9 @@ impl Numbers {
 fn counting_at_planes_gives_the_trees_of_the_sweep() {
     let stops = ["objects:1:16", "automatic", "cost-gain", "depth:7"];
     let samples = [1, 64, 1000].map(Strategy::SahSamples);
-    let strategies: Vec<Strategy> = Strategy::ALL.into_iter().chain(samples).collect();
+    let bins = [2, 8, 255].map(Strategy::SahBins);
+    let numbered = samples.into_iter().chain(bins);
+    let strategies: Vec<Strategy> = Strategy::ALL.into_iter().chain(numbered).collect();
     let mut inner = 0;
     for (seed, stop) in (0..).zip(stops.into_iter().cycle().take(16)) {
         let gridded = seed % 3 != 0;
@@ -81,4 +84,28 @@ fn counting_at_planes_gives_the_trees_of_the_sweep() {
         }
     }
     assert!(inner > 10_000, "{inner} planes compared");
+}
+
+/// One object at the lower end of a long box, two at the upper: the plane nearest to the two is the cheapest.
+#[test]
+fn bins_are_equal_parts_of_the_node() {
+    let cube = |x: f64| Aabb::new(DVec3::new(x, 0.0, 0.0), DVec3::new(x + 1.0, 1.0, 1.0));
+    let bounds = [cube(0.0), cube(9.0), cube(9.0)];
+    let world = bounds[0].union(bounds[1]);
+    let plane = |count: u16| {
+        let rules = Rules {
+            strategy: Strategy::SahBins(count),
+            stop: "objects:2:1".parse().expect("a stop rule"),
+            cost: CostModel::WALD_HAVRAN,
+            clipped: false,
+        };
+        build(&bounds, world, &rules).nodes[0].kind()
+    };
+    // At 16 bins 9.375 cuts the two.
+    for (count, at) in [(2, 5.0), (4, 7.5), (8, 8.75), (16, 8.75)] {
+        let NodeKind::Inner { axis, split, .. } = plane(count) else {
+            panic!("{count} bins cut the node");
+        };
+        assert_eq!((axis, split), (0, at), "{count} bins");
+    }
 }
