@@ -18,16 +18,23 @@ pub struct Prediction {
 /// Predict the counts of a tree.
 pub fn predict(tree: &Tree) -> Prediction {
     let root = tree.boxes[0].surface_area();
-    let p: Vec<f64> = tree.boxes.iter().map(|b| b.surface_area() / root).collect();
-    let (mut n_k, mut n_b, mut n_t) = (0.0, 0.0, 0.0);
-    for (node, &p) in tree.nodes.iter().zip(&p) {
-        match node.kind() {
-            NodeKind::Inner { .. } => n_k += p,
-            NodeKind::Leaf { count, .. } => {
-                n_b += p;
-                n_t += p * f64::from(count);
+    let p = tree.boxes.iter().map(|b| b.surface_area() / root);
+    Prediction::of_shares(tree, p.collect())
+}
+
+impl Prediction {
+    /// The counts that follow if these shares of the lines hit the nodes.
+    pub fn of_shares(tree: &Tree, p: Vec<f64>) -> Self {
+        let (mut n_k, mut n_b, mut n_t) = (0.0, 0.0, 0.0);
+        for (node, &p) in tree.nodes.iter().zip(&p) {
+            match node.kind() {
+                NodeKind::Inner { .. } => n_k += p,
+                NodeKind::Leaf { count, .. } => {
+                    n_b += p;
+                    n_t += p * f64::from(count);
+                }
             }
         }
+        Self { p, n_k, n_b, n_t }
     }
-    Prediction { p, n_k, n_b, n_t }
 }

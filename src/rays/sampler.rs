@@ -76,6 +76,23 @@ impl Sampler {
             above
         }
     }
+
+    /// The smallest set of at least so many points; `None` if all sets are smaller.
+    pub fn size_at_least(self, points: u64) -> Option<u64> {
+        if points > 1 << LARGEST_LOG2 {
+            return None;
+        }
+        Some(match self {
+            Self::Random => points,
+            Self::Stratified => {
+                let below = (points as f64).sqrt().sqrt() as u64;
+                (below..)
+                    .map(|side| side.pow(4))
+                    .find(|&n| n >= points.max(1))?
+            }
+            Self::Sobol => points.next_power_of_two(),
+        })
+    }
 }
 
 /// m, if that many points are m^4 of them and m > 0.

@@ -102,13 +102,71 @@ impl<'a> Timed<'a> {
     }
 }
 
-/// One set of rays in one tree: the least seconds of each chunk, in the even and the odd rounds.
+/// The least seconds of each chunk of a job, in the even and the odd rounds.
+pub struct Minima([Vec<f64>; 2]);
+
+impl Minima {
+    /// Of so many chunks, none timed yet.
+    pub fn new(chunks: usize) -> Self {
+        let never = vec![f64::INFINITY; chunks];
+        Self([never.clone(), never])
+    }
+
+    /// A chunk took so long in one of the even (`half` 0) or odd (1) rounds.
+    pub fn note(&mut self, half: usize, chunk: usize, seconds: f64) {
+        let least = &mut self.0[half][chunk];
+        *least = least.min(seconds);
+    }
+
+    /// The least of each chunk.
+    fn least(&self) -> Vec<f64> {
+        let [a, b] = &self.0;
+        a.iter().zip(b).map(|(a, b)| a.min(*b)).collect()
+    }
+
+    /// The row of a job all of whose units were timed. It has no name of a cell.
+    pub fn row(&self, what: String, units: u64, timing: Timing) -> PassTiming {
+        let [half_a_s, half_b_s] = self.0.each_ref().map(|half| half.iter().sum());
+        PassTiming {
+            what,
+            units,
+            timed_units: units,
+            seconds: self.least().iter().sum(),
+            half_a_s,
+            half_b_s,
+            disturbed: apart(half_a_s, half_b_s),
+            ..blank(timing, false)
+        }
+    }
+}
+
+/// Run every job once a round, in rounds of a fresh random order; `run` is told the half that the round belongs to, and
+/// `tick` after each round.
+pub fn interleaved<J>(
+    jobs: &mut [J],
+    rounds: u32,
+    seed: u64,
+    mut run: impl FnMut(&mut J, usize),
+    mut tick: impl FnMut(),
+) {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut order: Vec<_> = (0..jobs.len()).collect();
+    for round in 0..rounds {
+        order.shuffle(&mut random);
+        for &i in &order {
+            run(&mut jobs[i], round as usize % 2);
+        }
+        tick();
+    }
+}
+
+/// One set of rays in one tree, and the seconds of its chunks.
 pub struct Pass<'t, 'r> {
     timed: &'t Timed<'r>,
     /// Which tree.
     tree: usize,
     chunks: Vec<Range<usize>>,
-    best: [Vec<f64>; 2],
+    best: Minima,
 }
 
 impl<'t, 'r> Pass<'t, 'r> {
@@ -116,12 +174,11 @@ impl<'t, 'r> Pass<'t, 'r> {
     pub fn new(timed: &'t Timed<'r>, tree: usize, mut chunks: Vec<Range<usize>>) -> Self {
         // In the order of the rays, as a renderer would go.
         chunks.sort_by_key(|chunk| chunk.start);
-        let never = vec![f64::INFINITY; chunks.len()];
         Self {
             timed,
             tree,
+            best: Minima::new(chunks.len()),
             chunks,
-            best: [never.clone(), never],
         }
     }
 }
@@ -155,23 +212,16 @@ pub fn trace_times(
     mut passes: Vec<Pass>,
     timing: Timing,
     seed: u64,
-    mut tick: impl FnMut(),
+    tick: impl FnMut(),
 ) -> Vec<Vec<PassTiming>> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut order: Vec<_> = (0..passes.len()).collect();
-    for round in 0..timing.rounds {
-        order.shuffle(&mut random);
-        for &i in &order {
-            let pass = &mut passes[i];
-            let mut stack = Stack::default();
-            let best = &mut pass.best[round as usize % 2];
-            for (chunk, best) in pass.chunks.iter().zip(best) {
-                let took = seconds(scene, &trees[pass.tree], pass.timed, chunk, &mut stack);
-                *best = best.min(took);
-            }
+    let run = |pass: &mut Pass, half: usize| {
+        let mut stack = Stack::default();
+        for (number, chunk) in pass.chunks.iter().enumerate() {
+            let took = seconds(scene, &trees[pass.tree], pass.timed, chunk, &mut stack);
+            pass.best.note(half, number, took);
         }
-        tick();
-    }
+    };
+    interleaved(&mut passes, timing.rounds, seed, run, tick);
     let mut rows = vec![Vec::new(); trees.len()];
     for pass in passes {
         rows[pass.tree].push(pass.row(timing));
@@ -234,8 +284,8 @@ impl Pass<'_, '_> {
         } else {
             all as f64 / timed as f64
         };
-        let [a, b] = &self.best;
-        let least: Vec<f64> = a.iter().zip(b).map(|(a, b)| a.min(*b)).collect();
+        let Minima([a, b]) = &self.best;
+        let least = self.best.least();
         let total = |seconds: &[f64]| scale * seconds.iter().sum::<f64>();
         let (half_a_s, half_b_s) = (total(a), total(b));
         PassTiming {
@@ -386,7 +436,7 @@ mod tests {
 
     fn row(timed: &Timed, a: Vec<f64>, b: Vec<f64>) -> PassTiming {
         let mut pass = Pass::new(timed, 0, timed.chunks[..a.len()].to_vec());
-        pass.best = [a, b];
+        pass.best = Minima([a, b]);
         pass.row(TIMING)
     }
 

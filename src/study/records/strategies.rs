@@ -28,7 +28,8 @@ pub struct RayRecord {
     pub object_tests: u64,
 }
 
-/// Seconds of one thing done with one tree, on one thread. A row of `timings.csv` of a run of kind `strategies`.
+/// Seconds of one thing done with one tree, on one thread. A row of `timings.csv` of a run of kind `strategies`,
+/// `cost-vs-work` or `speed-vs-error`.
 ///
 /// Every round goes over all trees of the scene in a fresh order. Of each chunk of rays the least time of all rounds
 /// counts; a pass that would take too long is timed on a random sample of chunks and scaled.
@@ -43,7 +44,8 @@ pub struct PassTiming {
     pub strategy: String,
     /// Stop rule of the cell.
     pub stop: String,
-    /// `build`, or the kind of the rays traced: `primary`, `shadow`, `secondary`.
+    /// `build`, or the kind of the rays traced: `primary`, `shadow`, `secondary`. Of a sampler `SAMPLER ASK LINES`, such as
+    /// `sobol all 4096`: drawing, traversing and counting a set of so many lines.
     pub what: String,
     /// Rays in all; 1 for `build`.
     pub units: u64,

@@ -6,6 +6,8 @@ use crate::kd::{StopRule, Strategy};
 use crate::study::kernel::Kernel;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
 
+pub use super::method::Method;
+
 /// The keys of this kind. Each part is measured where its section is there.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
@@ -24,22 +26,6 @@ pub struct SpeedVsError {
     pub coverage: Option<Coverage>,
     /// What is expected.
     pub expect: Expect,
-}
-
-/// A way to estimate by lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
-#[serde(rename_all = "kebab-case")]
-pub enum Method {
-    /// Independent lines.
-    Random,
-    /// A line in each of m^4 cells.
-    Stratified,
-    /// Owen-scrambled Sobol'.
-    Sobol,
-    /// Directions of independent lines, positions integrated exactly.
-    Conditional,
-    /// Directions of Owen-scrambled Sobol' lines, positions integrated exactly.
-    ConditionalSobol,
 }
 
 /// Samplers of lines.
@@ -201,6 +187,11 @@ impl SpeedVsError {
             let shares = part.wanted.iter().all(|e| *e > 0.0 && *e < 1.0);
             wrong_unless(shares, "samplers.wanted", || {
                 "samplers.wanted must be relative errors between 0 and 1".into()
+            })?;
+            let once =
+                (1..part.methods.len()).all(|i| !part.methods[..i].contains(&part.methods[i]));
+            wrong_unless(once, "samplers.methods", || {
+                "samplers.methods names a method twice".into()
             })?;
             rounds("samplers.rounds", part.rounds)?;
         }

@@ -2,8 +2,14 @@
 
 pub mod asked;
 pub mod coverage;
+mod errors;
+mod exponents;
+mod method;
 pub mod planes;
 pub mod precision;
+mod replicates;
+mod sampler_times;
+mod sampler_verdicts;
 pub mod samplers;
 
 use serde::{Deserialize, Serialize};

@@ -1,0 +1,91 @@
+//! Ways to estimate by lines.
+
+use serde::Deserialize;
+
+use crate::kd::Ask;
+use crate::rays::{LineLaw, Sampler, Source};
+use crate::study::ray_sets::RaysOf;
+
+use super::asked::Samplers;
+
+/// A way to estimate by lines.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum Method {
+    /// Independent lines.
+    Random,
+    /// A line in each of m^4 cells.
+    Stratified,
+    /// Owen-scrambled Sobol'.
+    Sobol,
+    /// Directions of independent lines, positions integrated exactly.
+    Conditional,
+    /// Directions of Owen-scrambled Sobol' lines, positions integrated exactly.
+    ConditionalSobol,
+}
+
+impl Method {
+    /// The name in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Random => "random",
+            Self::Stratified => "stratified",
+            Self::Sobol => "sobol",
+            Self::Conditional => "conditional",
+            Self::ConditionalSobol => "conditional-sobol",
+        }
+    }
+
+    /// How its lines are drawn.
+    pub fn sampler(self) -> Sampler {
+        match self {
+            Self::Random | Self::Conditional => Sampler::Random,
+            Self::Stratified => Sampler::Stratified,
+            Self::Sobol | Self::ConditionalSobol => Sampler::Sobol,
+        }
+    }
+
+    /// Whether positions are integrated exactly, so that no line is traversed.
+    pub fn is_conditional(self) -> bool {
+        matches!(self, Self::Conditional | Self::ConditionalSobol)
+    }
+}
+
+/// A method, and what its lines ask.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Way {
+    /// The method.
+    pub method: Method,
+    /// What its lines ask.
+    pub ask: Ask,
+}
+
+impl Way {
+    /// All that a part of an experiment asks for.
+    pub fn all(asked: &Samplers) -> Vec<Self> {
+        let ask = |ask: Ask| {
+            asked
+                .methods
+                .iter()
+                .map(move |&method| Self { method, ask })
+        };
+        let nearest =
+            ask(Ask::Nearest).filter(|way| asked.reference > 0 && !way.method.is_conditional());
+        ask(Ask::All).chain(nearest).collect()
+    }
+
+    /// The name of its rays, as a set of rays is named.
+    pub fn rays(self) -> String {
+        RaysOf::Source(Source::Law(LineLaw::Surface), self.ask).to_string()
+    }
+
+    /// The numbers of lines of its replicates: every power of two, or what the sampler has nearest to it.
+    pub fn sizes(self, asked: &Samplers) -> Vec<u64> {
+        let powers = asked.from.ilog2()..=asked.to.ilog2();
+        let mut sizes: Vec<u64> = powers
+            .map(|log2| self.method.sampler().nearest_size(1 << log2))
+            .collect();
+        sizes.dedup();
+        sizes
+    }
+}
