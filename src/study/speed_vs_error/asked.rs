@@ -141,7 +141,7 @@ impl SpeedVsError {
             })
         };
         let rounds = |key: &'static str, times: u32| {
-            wrong_unless(times >= 2 && times % 2 == 0, key, || {
+            wrong_unless(times >= 2 && times.is_multiple_of(2), key, || {
                 format!("{key} = {times}, but it must be even and at least 2, for two halves")
             })
         };
