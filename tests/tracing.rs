@@ -170,7 +170,7 @@ fn any_hits_are_brute_forces_and_end_at_the_first_object() {
                     // The same leaves as without an end, up to the first object that is hit.
                     let mut all = Leaves::default();
                     let endless = |_: &[u32], _: &mut Leaves| f64::INFINITY;
-                    traverse::<Tracing, _>(
+                    traverse::<Tracing, _, _>(
                         &tree, &ray.line, ray.span, &mut stack, &mut all, endless,
                     );
                     let (mut leaves, mut tests) = (0, 0);

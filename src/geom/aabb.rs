@@ -2,15 +2,15 @@
 
 use glam::DVec3;
 
-use super::{Axis, Line, PADDING, Span, slack};
+use super::{Axis, Line, Real, Span, Vector, slack};
 
 /// A closed axis-aligned box. `lo <= hi` holds on every axis; a box may be flat, a segment or a point.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Aabb {
+pub struct Aabb<V = DVec3> {
     /// Lower corner.
-    pub lo: DVec3,
+    pub lo: V,
     /// Upper corner.
-    pub hi: DVec3,
+    pub hi: V,
 }
 
 impl Aabb {
@@ -86,25 +86,33 @@ impl Aabb {
     pub fn is_valid(&self) -> bool {
         self.lo.is_finite() && self.hi.is_finite() && self.lo.cmple(self.hi).all()
     }
+}
 
+impl<V: Vector> Aabb<V> {
     /// The part of `span` for which the line is in the closed box, or `None`: the slab test used for counting.
     ///
     /// A direction part of zero is a containment test, so no 0 * inf arises; otherwise the near plane is told by the
     /// direction's sign. The arithmetic is `(plane - origin) * inverse`, the same as in tree traversal, so that both
     /// agree bit for bit.
     #[inline]
-    pub fn clip(&self, line: &Line, span: Span) -> Option<Span> {
-        self.clip_padded(line, span, 0.0)
+    pub fn clip(&self, line: &Line<V>, span: Span<V::Real>) -> Option<Span<V::Real>> {
+        self.clip_padded(line, span, V::Real::ZERO)
     }
 
-    /// As [`clip`](Self::clip), each plane's t widened by `padding * |t|`: never a wrong miss (for tracing).
+    /// As [`clip`](Self::clip), each plane's t widened by [`Real::PADDING`] of itself: never a wrong miss (for tracing).
     #[inline]
-    pub fn clip_conservative(&self, line: &Line, span: Span) -> Option<Span> {
-        self.clip_padded(line, span, PADDING)
+    pub fn clip_conservative(&self, line: &Line<V>, span: Span<V::Real>) -> Option<Span<V::Real>> {
+        self.clip_padded(line, span, V::Real::PADDING)
     }
 
+    /// As [`clip`](Self::clip), each plane's t widened by `padding * |t|`.
     #[inline]
-    fn clip_padded(&self, line: &Line, span: Span, padding: f64) -> Option<Span> {
+    pub fn clip_padded(
+        &self,
+        line: &Line<V>,
+        span: Span<V::Real>,
+        padding: V::Real,
+    ) -> Option<Span<V::Real>> {
         let Span { mut t0, mut t1 } = span;
         for k in 0..3 {
             if line.is_parallel(k) {
@@ -113,7 +121,7 @@ impl Aabb {
                 }
                 continue;
             }
-            let (near, far) = if line.inverse[k] > 0.0 {
+            let (near, far) = if line.inverse[k] > V::Real::ZERO {
                 (self.lo[k], self.hi[k])
             } else {
                 (self.hi[k], self.lo[k])

@@ -1,4 +1,5 @@
-//! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64.
+//! Boxes, lines and rays, and the object kinds with their exact bounds and nearest intersections. All in f64; boxes, lines,
+//! rays and triangles have f32 instances too, from the same source ([`Real`]).
 
 mod aabb;
 mod area;
@@ -8,6 +9,7 @@ mod cone;
 mod line;
 mod objects;
 mod polygon;
+mod real;
 mod section;
 mod sphere;
 mod triangle;
@@ -16,9 +18,10 @@ pub use aabb::Aabb;
 pub use cast::Cast;
 pub use clip::{Clipper, clip_slack};
 pub use cone::Cone;
-pub use line::{Line, PADDING, Ray, Span, slack};
+pub use line::{Line, Ray, Span, slack};
 pub use objects::{Object, Objects};
 pub use polygon::Polygon;
+pub use real::{Real, Vector};
 pub use section::Piece;
 pub use sphere::Sphere;
 pub use triangle::Triangle;

@@ -1,19 +1,14 @@
-//! Triangles, with the watertight test of Woop, Benthin & Wald (2013), all in f64.
+//! Triangles, with the watertight test of Woop, Benthin & Wald (2013).
 
 use glam::DVec3;
 
-use super::{Aabb, Ray};
+use super::{Aabb, Ray, Real, Vector};
 
 /// A triangle by its corners. One without area is kept and tested, but never hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Triangle(pub [DVec3; 3]);
+pub struct Triangle<V = DVec3>(pub [V; 3]);
 
 impl Triangle {
-    /// The smallest box around it.
-    pub fn bounds(&self) -> Aabb {
-        Aabb::around(self.0)
-    }
-
     /// Area.
     pub fn area(&self) -> f64 {
         0.5 * self.normal().length()
@@ -24,6 +19,17 @@ impl Triangle {
         let [a, b, c] = self.0;
         (b - a).cross(c - a)
     }
+}
+
+impl<V: Vector> Triangle<V> {
+    /// The smallest box around it.
+    pub fn bounds(&self) -> Aabb<V> {
+        let [a, b, c] = self.0;
+        Aabb {
+            lo: a.min(b).min(c),
+            hi: a.max(b).max(c),
+        }
+    }
 
     /// Parameter of the hit in the ray's range, or `None`.
     ///
@@ -32,19 +38,18 @@ impl Triangle {
     /// parallel to the ray could otherwise leave. A ray that misses that box misses the triangle, whatever the edge
     /// functions say of coordinates so unlike that these are noise: no tree could find such a hit.
     #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<f64> {
+    pub fn intersect(&self, ray: &Ray<V>) -> Option<V::Real> {
         let [a, b, c] = self.0.map(|p| ray.sheared(p));
-        let u = c.x * b.y - c.y * b.x;
-        let v = a.x * c.y - a.y * c.x;
-        let w = b.x * a.y - b.y * a.x;
-        if (u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0) {
+        let [u, v, w] = [(c, b), (a, c), (b, a)].map(|(p, q)| p[0] * q[1] - p[1] * q[0]);
+        let zero = V::Real::ZERO;
+        if (u < zero || v < zero || w < zero) && (u > zero || v > zero || w > zero) {
             return None;
         }
         let determinant = u + v + w;
-        if determinant == 0.0 {
+        if determinant == zero {
             return None;
         }
-        let t = (u * a.z + v * b.z + w * c.z) / determinant;
+        let t = (u * a[2] + v * b[2] + w * c[2]) / determinant;
         let own = ray.within(&self.bounds())?;
         let t = t.clamp(own.t0, own.t1);
         ray.covers(t).then_some(t)

@@ -1,20 +1,20 @@
-//! One traversal, generic over a [`Probe`] and a padding [`Mode`].
+//! One traversal, generic over a [`Probe`], a padding [`Mode`] and the numbers of a tree ([`Planes`]).
 //!
 //! A line with span [t0, t1] in a node meets the plane at t: it visits the near child if t >= t0 and the far one if
 //! t <= t1, both ends included; a line parallel to the plane visits its side, or both sides if it lies in the plane.
 //! Near and far are told by the direction's sign, never by the origin's side. Unpadded, the visited nodes are exactly
 //! those whose closed boxes pass the slab test, bit for bit.
 
-use crate::geom::{Aabb, Line, Objects, PADDING, Ray, Span, slack};
+use glam::DVec3;
+
+use crate::geom::{Aabb, Line, Objects, Ray, Real, Span, Vector, slack};
 
 use super::{NoProbe, NodeKind, Probe, Tree, Turn};
 
 /// How parameters of planes are treated.
 pub trait Mode {
-    /// Relative widening of each plane's t.
-    const PADDING: f64;
-    /// The root's part of the span.
-    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span>;
+    /// Whether each plane's t is widened by [`Real::PADDING`] of itself.
+    const PADDED: bool;
 }
 
 /// Counting: closed and unpadded, equal to the slab test on every node's box.
@@ -24,48 +24,78 @@ pub struct Counting;
 pub struct Tracing;
 
 impl Mode for Counting {
-    const PADDING: f64 = 0.0;
-
-    #[inline(always)]
-    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span> {
-        root.clip(line, span)
-    }
+    const PADDED: bool = false;
 }
 
 impl Mode for Tracing {
-    const PADDING: f64 = PADDING;
+    const PADDED: bool = true;
+}
+
+/// What a traversal reads of a tree.
+pub trait Planes {
+    /// Points of its numbers.
+    type Vector: Vector<Real = Self::Real>;
+    /// Its numbers.
+    type Real: Real;
+
+    /// The root's box.
+    fn world(&self) -> &Aabb<Self::Vector>;
+    /// What a node is, with its data.
+    fn node(&self, number: u32) -> NodeKind<Self::Real>;
+    /// Objects in a leaf given by its reference range.
+    fn objects(&self, first: u32, count: u32) -> &[u32];
+}
+
+impl Planes for Tree {
+    type Vector = DVec3;
+    type Real = f64;
 
     #[inline(always)]
-    fn enter(root: &Aabb, line: &Line, span: Span) -> Option<Span> {
-        root.clip_conservative(line, span)
+    fn world(&self) -> &Aabb {
+        &self.world
+    }
+
+    #[inline(always)]
+    fn node(&self, number: u32) -> NodeKind {
+        self.nodes[number as usize].kind()
+    }
+
+    #[inline(always)]
+    fn objects(&self, first: u32, count: u32) -> &[u32] {
+        self.objects(first, count)
     }
 }
 
 /// Nodes still to visit, kept between traversals to spare allocations.
 #[derive(Default)]
-pub struct Stack(Vec<(u32, Span)>);
+pub struct Stack<T = f64>(Vec<(u32, Span<T>)>);
 
 /// Visit the nodes that `line` meets within `span`, front to back.
 ///
 /// `leaf` gets a leaf's objects and the probe, and returns the t up to which further nodes matter: +inf for a line, the best hit so far
 /// for a nearest hit, -inf to stop.
 #[inline]
-pub fn traverse<M: Mode, P: Probe>(
-    tree: &Tree,
-    line: &Line,
-    span: Span,
-    stack: &mut Stack,
+pub fn traverse<M: Mode, T: Planes, P: Probe>(
+    tree: &T,
+    line: &Line<T::Vector>,
+    span: Span<T::Real>,
+    stack: &mut Stack<T::Real>,
     probe: &mut P,
-    mut leaf: impl FnMut(&[u32], &mut P) -> f64,
+    mut leaf: impl FnMut(&[u32], &mut P) -> T::Real,
 ) {
-    let Some(Span { mut t0, mut t1 }) = M::enter(&tree.world, line, span) else {
+    let padding = if M::PADDED {
+        T::Real::PADDING
+    } else {
+        T::Real::ZERO
+    };
+    let Some(Span { mut t0, mut t1 }) = tree.world().clip_padded(line, span, padding) else {
         return;
     };
     let stack = &mut stack.0;
     stack.clear();
     let mut node = 0;
     loop {
-        match tree.nodes[node as usize].kind() {
+        match tree.node(node) {
             NodeKind::Inner { axis, split, left } => {
                 probe.inner(node);
                 if line.is_parallel(axis) {
@@ -78,10 +108,10 @@ pub fn traverse<M: Mode, P: Probe>(
                     }
                     continue;
                 }
-                let right_first = u32::from(line.inverse[axis] < 0.0);
+                let right_first = u32::from(line.inverse[axis] < T::Real::ZERO);
                 let (near, far) = (left + right_first, left + 1 - right_first);
                 let t = line.t_at(axis, split);
-                let slack = slack(M::PADDING, t);
+                let slack = slack(padding, t);
                 if t - slack > t1 {
                     probe.turn(node, Turn::Near);
                     node = near;
@@ -126,7 +156,7 @@ pub fn traverse_line(
     stack: &mut Stack,
     mut probe: impl Probe,
 ) {
-    traverse::<Counting, _>(tree, line, span, stack, &mut probe, |_, _| f64::INFINITY);
+    traverse::<Counting, _, _>(tree, line, span, stack, &mut probe, |_, _| f64::INFINITY);
 }
 
 /// A hit of a ray.
@@ -199,7 +229,7 @@ fn best_watched<P: Probe>(
         }
         best.map_or(f64::INFINITY, &limit)
     };
-    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
+    traverse::<Tracing, _, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
     best
 }
 
@@ -248,7 +278,7 @@ pub fn any_watched<P: Probe>(
             None => f64::INFINITY,
         }
     };
-    traverse::<Tracing, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
+    traverse::<Tracing, _, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
     if found.is_some() {
         probe.untested(untested as u32);
     }

@@ -17,13 +17,13 @@ const LEAF: u32 = 3;
 
 /// What a node is.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum NodeKind {
+pub enum NodeKind<T = f64> {
     /// Cut by the plane `x[axis] = split`; the children are `left` and `left + 1`.
     Inner {
         /// Axis the plane is normal to.
         axis: Axis,
         /// Position of the plane.
-        split: f64,
+        split: T,
         /// Number of the child below the plane; the one above follows it.
         left: u32,
     },

@@ -75,7 +75,7 @@ fn count_testing(set: &RaySet, tree: &Tree, objects: &Objects, every: usize) -> 
                         let hit = if known || test_all {
                             kind.ask().hits(tree, objects, &ray, &mut stack, &mut own)
                         } else {
-                            traverse::<Tracing, _>(
+                            traverse::<Tracing, _, _>(
                                 tree,
                                 &ray.line,
                                 ray.span,

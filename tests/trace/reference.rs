@@ -1,7 +1,7 @@
 //! A traversal of its own, by recursion, and rays that are hard for any.
 
 use glam::DVec3;
-use sahlab::geom::{Cast, Line, PADDING, Ray, Span};
+use sahlab::geom::{Cast, Line, Ray, Real, Span};
 use sahlab::kd::{Ask, Hit, NodeKind, Tree, Work};
 use sahlab::rays::{SurfaceLines, Uniforms};
 use sahlab::scene::Scene;
@@ -95,7 +95,7 @@ impl<'a> Walk<'a> {
                     (left, right)
                 };
                 let t = (split - o) * d.recip();
-                let (early, late) = (t - PADDING * t.abs(), t + PADDING * t.abs());
+                let (early, late) = (t - f64::PADDING * t.abs(), t + f64::PADDING * t.abs());
                 if late >= t0 {
                     let t1 = t1.min(if early > t1 { t1 } else { late });
                     self.node(near, Span { t0, t1 });

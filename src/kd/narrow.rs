@@ -1,0 +1,240 @@
+//! A kd-tree in single precision: the same planes and boxes, rounded to `f32`, in half the memory.
+//!
+//! Rounding keeps order: a plane stays inside its node's box, a triangle's rounded corners stay inside the rounded boxes of the
+//! leaves that hold it. But what lies nearer together than f32 numbers do falls together. [`resolution`] tells how fine they are
+//! for a scene; a tree for which they are too coarse is refused. Only triangles have a test in f32.
+
+use glam::{DVec3, Vec3};
+use thiserror::Error;
+
+use crate::geom::{Aabb, Axis, Line, Objects, Triangle};
+
+use super::{NodeKind, Planes, Tree};
+
+/// Resolution below which one is warned.
+pub const WARN_BELOW: f64 = 16_384.0;
+
+/// Resolution below which a tree is refused.
+pub const REFUSE_BELOW: f64 = 256.0;
+
+const LEAF: u32 = 3;
+
+/// An inner node's plane and children, or a leaf's references, in 8 bytes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Node {
+    /// The bits of the plane's position; or the number of references.
+    data: u32,
+    /// Low two bits: axis, or 3 for a leaf; above them the left child or the first reference.
+    tag: u32,
+}
+
+impl Node {
+    fn of(kind: NodeKind) -> Result<Self, Refusal> {
+        let (data, low, first) = match kind {
+            NodeKind::Inner { axis, split, left } => ((split as f32).to_bits(), axis as u32, left),
+            NodeKind::Leaf { first, count } => (count, LEAF, first),
+        };
+        if first >= 1 << 30 {
+            return Err(Refusal::TooLarge(first));
+        }
+        let tag = low | first << 2;
+        Ok(Self { data, tag })
+    }
+
+    #[inline(always)]
+    fn kind(self) -> NodeKind<f32> {
+        let first = self.tag >> 2;
+        match self.tag & 3 {
+            LEAF => NodeKind::Leaf {
+                first,
+                count: self.data,
+            },
+            axis => NodeKind::Inner {
+                axis: axis as Axis,
+                split: f32::from_bits(self.data),
+                left: first,
+            },
+        }
+    }
+}
+
+/// A kd-tree in single precision, with the node numbers and references of the tree it was made from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct NarrowTree {
+    nodes: Vec<Node>,
+    /// The box of every node, cut from the rounded root by the rounded planes: exact numbers, whose areas make predictions.
+    pub boxes: Vec<Aabb>,
+    /// Objects of the leaves, one entry an object and leaf.
+    pub references: Vec<u32>,
+    /// The root's box.
+    pub world: Aabb<Vec3>,
+}
+
+/// Why there is no tree in single precision.
+#[derive(Clone, Debug, PartialEq, Error)]
+pub enum Refusal {
+    /// Neighbouring f32 numbers are too far apart for the scene.
+    #[error(
+        "single precision is too coarse here: the longest side of the box is {resolution:.1} steps of f32 at its farthest \
+         coordinate, at least {REFUSE_BELOW} are wanted; subtract the centre of the box, {centre}, from all coordinates, or take f64"
+    )]
+    TooCoarse {
+        /// [`resolution`] of the root's box.
+        resolution: f64,
+        /// What to subtract.
+        centre: DVec3,
+    },
+    /// A coordinate is beyond the range of f32.
+    #[error(
+        "the coordinate {0:e} is beyond single precision, which ends at {max:e}; scale the scene by a power of two, or take f64",
+        max = f32::MAX
+    )]
+    NotFinite(f64),
+    /// Numbers of nodes and references have 30 bits.
+    #[error(
+        "node or reference number {0} does not fit into 30 bits; build a smaller tree, or take f64"
+    )]
+    TooLarge(u32),
+    /// All parts of a direction are too small for f32.
+    #[error("the direction {0} vanishes in single precision; give it unit length, or take f64")]
+    NoDirection(DVec3),
+    /// Only triangles have a test in single precision.
+    #[error(
+        "{0} of the objects are no triangles, and only triangles have a test in single precision; take f64"
+    )]
+    NoTriangles(usize),
+}
+
+/// Single precision is coarse for the scene, but not refused.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Warning {
+    /// [`resolution`] of the root's box.
+    pub resolution: f64,
+}
+
+impl std::fmt::Display for Warning {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(
+            f,
+            "single precision is coarse here: the longest side of the box is {:.0} steps of f32 at its farthest coordinate, \
+             {WARN_BELOW} or more leave results clean",
+            self.resolution
+        )
+    }
+}
+
+/// The longest side of a box over the distance of neighbouring f32 numbers at its farthest coordinate.
+///
+/// A box of side 1 around the origin has 2^24; moved by 1,000 along each axis 2^14, by 10^5 2^7. 0 beyond the range of f32.
+pub fn resolution(world: &Aabb) -> f64 {
+    let farthest = world.lo.abs().max(world.hi.abs()).max_element() as f32;
+    let step = farthest.next_up() - farthest;
+    if !step.is_finite() {
+        return 0.0;
+    }
+    world.extent().max_element() / f64::from(step)
+}
+
+impl NarrowTree {
+    /// The tree in single precision, and whether to be wary of it; or why it would be useless.
+    pub fn of(tree: &Tree) -> Result<(Self, Option<Warning>), Refusal> {
+        let resolution = resolution(&tree.world);
+        let narrow = Self::however_coarse(tree)?;
+        if resolution < REFUSE_BELOW {
+            let centre = tree.world.centre();
+            return Err(Refusal::TooCoarse { resolution, centre });
+        }
+        let warning = (resolution < WARN_BELOW).then_some(Warning { resolution });
+        Ok((narrow, warning))
+    }
+
+    /// As [`of`](Self::of), for whoever wants to know what would come of it: only what cannot be stored is refused.
+    pub fn however_coarse(tree: &Tree) -> Result<Self, Refusal> {
+        let world = Aabb {
+            lo: narrow_point(tree.world.lo)?,
+            hi: narrow_point(tree.world.hi)?,
+        };
+        let nodes: Vec<Node> = tree
+            .nodes
+            .iter()
+            .map(|node| Node::of(node.kind()))
+            .collect::<Result<_, _>>()?;
+        let root = Aabb::new(world.lo.as_dvec3(), world.hi.as_dvec3());
+        let mut boxes = vec![root; nodes.len()];
+        // Children come after their parent in the arena.
+        for (i, node) in nodes.iter().enumerate() {
+            if let NodeKind::Inner { axis, split, left } = node.kind() {
+                let (below, above) = boxes[i].split(axis, f64::from(split));
+                boxes[left as usize] = below;
+                boxes[left as usize + 1] = above;
+            }
+        }
+        Ok(Self {
+            nodes,
+            boxes,
+            references: tree.references.clone(),
+            world,
+        })
+    }
+
+    /// Bytes that a traversal reads: nodes and references.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.references[..])
+    }
+}
+
+impl Planes for NarrowTree {
+    type Vector = Vec3;
+    type Real = f32;
+
+    #[inline(always)]
+    fn world(&self) -> &Aabb<Vec3> {
+        &self.world
+    }
+
+    #[inline(always)]
+    fn node(&self, number: u32) -> NodeKind<f32> {
+        self.nodes[number as usize].kind()
+    }
+
+    #[inline(always)]
+    fn objects(&self, first: u32, count: u32) -> &[u32] {
+        &self.references[first as usize..][..count as usize]
+    }
+}
+
+/// A point, rounded to single precision.
+fn narrow_point(p: DVec3) -> Result<Vec3, Refusal> {
+    let narrow = p.as_vec3();
+    if narrow.is_finite() {
+        Ok(narrow)
+    } else {
+        Err(Refusal::NotFinite(p.abs().max_element()))
+    }
+}
+
+/// The triangles of a scene, rounded to single precision; it must have no other objects.
+pub fn narrow_triangles(objects: &Objects) -> Result<Vec<Triangle<Vec3>>, Refusal> {
+    let others = objects.len() - objects.triangles.len();
+    if others > 0 {
+        return Err(Refusal::NoTriangles(others));
+    }
+    let narrow = |&Triangle([a, b, c]): &Triangle| {
+        Ok(Triangle([
+            narrow_point(a)?,
+            narrow_point(b)?,
+            narrow_point(c)?,
+        ]))
+    };
+    objects.triangles.iter().map(narrow).collect()
+}
+
+/// A line, rounded to single precision.
+pub fn narrow_line(line: &Line) -> Result<Line<Vec3>, Refusal> {
+    let origin = narrow_point(line.origin)?;
+    let direction = narrow_point(line.direction)?;
+    if direction == Vec3::ZERO {
+        return Err(Refusal::NoDirection(line.direction));
+    }
+    Ok(Line::new(origin, direction))
+}
