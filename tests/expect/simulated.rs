@@ -151,7 +151,7 @@ pub fn simulated(metric: Metric, scene: &Scene, tree: &Tree) -> Expected {
             let mut work = Work::default();
             let mut met = Vec::new();
             let line = line(world, i);
-            traverse::<Counting, _>(
+            traverse::<Counting, _, _>(
                 tree,
                 &line,
                 Span::FULL,

@@ -223,7 +223,7 @@ fn counts(tree: &Tree, ray: &Ray) {
         assert_eq!(visited, met, "{ray:?} within {span:?}");
 
         let mut widened = Visited(vec![false; tree.nodes.len()]);
-        traverse::<Tracing, _>(tree, &ray.line, span, &mut stack, &mut widened, |_, _| {
+        traverse::<Tracing, _, _>(tree, &ray.line, span, &mut stack, &mut widened, |_, _| {
             f64::INFINITY
         });
         assert!(met.iter().zip(&widened.0).all(|(&met, &seen)| seen || !met));

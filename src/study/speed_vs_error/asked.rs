@@ -232,6 +232,15 @@ impl SpeedVsError {
                 "planes.clipped must be [false] or [false, true]".into()
             })?;
             rounds("planes.builds", part.builds)?;
+            if let Some(bound) = &self.expect.planes {
+                let there = part.strategies.contains(&bound.strategy);
+                wrong_unless(there && bound.above >= 0.0, "expect.planes", || {
+                    format!(
+                        "expect.planes: '{}' must be among planes.strategies, and above a number, 0 or more",
+                        bound.strategy
+                    )
+                })?;
+            }
         }
         if let Some(part) = &self.coverage {
             known("coverage.scene", std::slice::from_ref(&part.scene))?;

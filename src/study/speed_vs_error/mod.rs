@@ -43,6 +43,8 @@ pub struct Found {
     pub planes: Vec<PlaneRecord>,
     /// Rows of `coverage.csv`.
     pub coverage: Vec<CoverageRecord>,
+    /// Cells of its rows of `timings.csv`.
+    timed: Vec<String>,
     /// Rows of `timings.csv`, kept there alone.
     #[serde(skip)]
     pub timings: Vec<PassTiming>,
@@ -152,9 +154,10 @@ pub(super) fn run(
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
     let pieces = pieces(plan, asked, scenes);
+    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     let found = pieces
         .iter()
-        .map(|piece| store.finished(&piece.id))
+        .map(|piece| finished(store, piece, &times))
         .collect();
     let announce = |left: &[&Piece<'_>]| {
         watcher.announce(&format!("measuring {} parts of scenes", left.len()));
@@ -162,8 +165,10 @@ pub(super) fn run(
     let one = |piece: &Piece<'_>| {
         let place = format!("{:?} of {}", piece.part, piece.scene.name).to_lowercase();
         watcher.begin(&place);
-        let found =
+        let mut found =
             measure(asked, piece, watcher).map_err(|fault| RunError::Bug { place, fault })?;
+        found.timed = found.timings.iter().map(|row| row.cell.clone()).collect();
+        found.timed.dedup();
         keep_seconds(store, &found.timings)?;
         store.save(&piece.id, &found)?;
         Ok(found)
@@ -175,6 +180,16 @@ pub(super) fn run(
     let results = piece_by_piece(&pieces, found, extent, "parts", watcher, announce, one)?;
     write(plan, asked, &results, store)?;
     Ok(())
+}
+
+/// A finished piece, if its seconds are there too and by this very program.
+fn finished(store: &Store, piece: &Piece<'_>, times: &[PassTiming]) -> Option<Found> {
+    let found: Found = store.finished(&piece.id)?;
+    let is_there = |cell: &String| {
+        let row = |row: &PassTiming| row.cell == *cell && row.revision == crate::REVISION;
+        times.iter().any(row)
+    };
+    found.timed.iter().all(is_there).then_some(found)
 }
 
 /// Put rows of seconds in place of older ones of the same cells; rows of other runs stay.
