@@ -360,7 +360,8 @@ fn build_row(seconds: &[f64], timing: Timing) -> PassTiming {
     }
 }
 
-fn apart(a: f64, b: f64) -> bool {
+/// Whether two halves are so far apart that the machine was disturbed.
+pub fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > DISTURBED * a.min(b)
 }
 

@@ -1,0 +1,128 @@
+//! Seconds of a kernel: the sum of chunk minima over interleaved rounds, on one thread.
+
+use std::hint::black_box;
+use std::ops::Range;
+use std::time::Instant;
+
+use rand::SeedableRng;
+use rand::rngs::ChaCha8Rng;
+use rand::seq::SliceRandom;
+
+use crate::geom::{Line, Ray, Real, Span};
+use crate::kd::{Mode, NoProbe, Planes, Stack, Work, traverse};
+use crate::study::records::PassTiming;
+use crate::study::timing::{CHUNK, Timing, apart, blank};
+
+use super::numbers::Subject;
+
+/// Most lines that are timed.
+pub const TIMED: usize = 1 << 14;
+
+/// What is timed: some lines, a chunk at a time.
+pub struct Pass<'a> {
+    /// Name of its row.
+    what: String,
+    /// Visits or rays in all.
+    units: u64,
+    lines: usize,
+    run: Box<dyn FnMut(Range<usize>) + 'a>,
+    best: [Vec<f64>; 2],
+}
+
+/// A kernel's two passes: every node that lines meet (a unit is a visit), and the nearest hits of rays from the same origins (a unit
+/// is a ray).
+pub fn passes<'a, M: Mode, T: Planes>(
+    kernel: &str,
+    offset: f64,
+    subject: &Subject<'a, T>,
+    lines: &'a [Line<T::Vector>],
+) -> [Pass<'a>; 2] {
+    let (tree, triangles) = (subject.tree, subject.triangles);
+    let lines = &lines[..lines.len().min(TIMED)];
+    let rays: Vec<Ray<T::Vector>> = lines
+        .iter()
+        .map(|line| Ray::new(*line, Span::from(T::Real::ZERO)))
+        .collect();
+    let endless = |_: &[u32], _: &mut _| T::Real::INFINITY;
+    let mut work = Work::default();
+    let mut stack = Stack::default();
+    for line in lines {
+        traverse::<M, T, _>(tree, line, Span::FULL, &mut stack, &mut work, endless);
+    }
+    let mut near = Stack::default();
+    let visit = move |chunk: Range<usize>| {
+        for line in &lines[chunk] {
+            let endless = |_: &[u32], _: &mut NoProbe| T::Real::INFINITY;
+            traverse::<M, T, _>(tree, line, Span::FULL, &mut stack, &mut NoProbe, endless);
+        }
+    };
+    let trace = move |chunk: Range<usize>| {
+        for ray in &rays[chunk] {
+            let mut best = T::Real::INFINITY;
+            let leaf = |objects: &[u32], _: &mut NoProbe| {
+                for &object in objects {
+                    if let Some(t) = triangles[object as usize].intersect(ray) {
+                        best = best.min(t);
+                    }
+                }
+                best
+            };
+            traverse::<M, T, _>(tree, &ray.line, ray.span, &mut near, &mut NoProbe, leaf);
+            black_box(best);
+        }
+    };
+    let pass = |what: &str, units: u64, run: Box<dyn FnMut(Range<usize>) + 'a>| Pass {
+        what: format!("{kernel} {what} {offset:e}"),
+        units,
+        lines: lines.len(),
+        run,
+        best: [const { Vec::new() }; 2],
+    };
+    [
+        pass("visit", work.inner + work.leaves, Box::new(visit)),
+        pass("ray", lines.len() as u64, Box::new(trace)),
+    ]
+}
+
+/// Time all passes in rounds of a fresh random order. Gives rows without the names of their cell.
+pub fn seconds(mut passes: Vec<Pass<'_>>, rounds: u32, seed: u64) -> Vec<PassTiming> {
+    let mut random = ChaCha8Rng::seed_from_u64(seed);
+    let mut order: Vec<usize> = (0..passes.len()).collect();
+    for round in 0..rounds {
+        order.shuffle(&mut random);
+        for &i in &order {
+            let Pass {
+                lines, run, best, ..
+            } = &mut passes[i];
+            let best = &mut best[round as usize % 2];
+            best.resize(lines.div_ceil(CHUNK), f64::INFINITY);
+            for (c, least) in best.iter_mut().enumerate() {
+                let started = Instant::now();
+                run(c * CHUNK..(c * CHUNK + CHUNK).min(*lines));
+                *least = least.min(started.elapsed().as_secs_f64());
+            }
+        }
+    }
+    let timing = Timing {
+        rounds,
+        builds: rounds,
+        pass_s: f64::INFINITY,
+    };
+    let row = |Pass {
+                   what, units, best, ..
+               }: Pass<'_>| {
+        let [a, b] = &best;
+        let [half_a_s, half_b_s] = [a, b].map(|half| half.iter().sum::<f64>());
+        PassTiming {
+            what,
+            units,
+            timed_units: units,
+            seconds: a.iter().zip(b).map(|(a, b)| a.min(*b)).sum(),
+            half_a_s,
+            half_b_s,
+            disturbed: apart(half_a_s, half_b_s),
+            ..blank(timing, false)
+        }
+    };
+    passes.into_iter().map(row).collect()
+}
