@@ -142,10 +142,7 @@ fn corner(word: &str, mesh: &Mesh) -> Result<usize, Fault> {
         )),
         _ => Err(Fault::new(
             format!("there is no vertex {number}"),
-            format!(
-                "{} stand before this line",
-                plural(mesh.vertices.len(), "v line")
-            ),
+            format!("{} before this line", plural(mesh.vertices.len(), "v line")),
         )),
     }
 }

@@ -77,7 +77,7 @@ fn faults() {
         f 1 2          | :5 | a face with 2 corners  | at least 3
         f              | :5 | a face with 0 corners  | at least 3
         f 1 2 5        | :5 | no vertex 5            | run from 1 to 4
-        f 1 2 -5       | :5 | no vertex -5           | 4 v lines stand before
+        f 1 2 -5       | :5 | no vertex -5           | 4 v lines before
         f 1 0 2        | :5 | no vertex 0            | count from 1
         f 1 2 3 1      | :5 | vertex 1 stands twice  | must differ
         f 1 2 x        | :5 | 'x' is not a corner    | v, v/vt, v//vn or v/vt/vn

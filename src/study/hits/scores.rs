@@ -26,12 +26,15 @@ pub const ORDINARY: usize = 1;
 /// Index of the free intercept's score; the free slope's follows.
 pub const FREE: usize = 2;
 
+/// Least p of a node that takes part: sums of weights 1/p over 2^32 nodes stay within f64. No line will ever hit less.
+const LEAST_P: f64 = 1e-290;
+
 /// What one visit of each node adds, from the predicted p alone.
 pub struct Scoring {
     scores: Vec<[f64; SCORES]>,
     /// Bit c is set where a visit counts for contrast c.
     contrasts: Vec<u16>,
-    /// Whether the node takes part: 0 < p < 1.
+    /// Whether the node takes part: its p is below 1, and not so small that its weight overflows.
     pub included: Vec<bool>,
     /// Nodes that take part.
     pub nodes: usize,
@@ -43,7 +46,7 @@ impl Scoring {
     /// The scoring of a tree.
     pub fn new(tree: &Tree, prediction: &Prediction) -> Self {
         let p = &prediction.p;
-        let included: Vec<bool> = p.iter().map(|&p| 0.0 < p && p < 1.0).collect();
+        let included: Vec<bool> = p.iter().map(|&p| LEAST_P <= p && p < 1.0).collect();
         let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
             p.iter()
                 .zip(&included)
