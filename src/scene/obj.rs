@@ -33,7 +33,7 @@ pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Mesh, SceneError> {
         let mut text = text;
         if let Some(mut whole) = head(&text) {
             // Piece by piece, so that a file of backslashes takes no longer than another.
-            while let Some((_, next)) = lines.next() {
+            for (_, next) in lines.by_ref() {
                 match head(&next) {
                     Some(piece) => whole += &piece,
                     None => {

@@ -46,7 +46,7 @@ impl Scoring {
     /// The scoring of a tree.
     pub fn new(tree: &Tree, prediction: &Prediction) -> Self {
         let p = &prediction.p;
-        let included: Vec<bool> = p.iter().map(|&p| LEAST_P <= p && p < 1.0).collect();
+        let included: Vec<bool> = p.iter().map(|p| (LEAST_P..1.0).contains(p)).collect();
         let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
             p.iter()
                 .zip(&included)
