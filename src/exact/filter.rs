@@ -139,11 +139,6 @@ fn triple(p: DVec3, q: DVec3, r: DVec3) -> f64 {
 
 /// The sign of a [`triple`], if it is certain.
 fn sure_sign(distance: f64) -> Option<Ordering> {
-    (distance.abs() > CERTAIN).then(|| {
-        if distance > 0.0 {
-            Ordering::Greater
-        } else {
-            Ordering::Less
-        }
-    })
+    let sign = distance.partial_cmp(&0.0);
+    sign.filter(|_| distance.abs() > CERTAIN)
 }

@@ -190,7 +190,7 @@ mod tests {
         // A hash, so that any stretch of lines is as good as random.
         let hash = i.wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29);
         let hash = hash.wrapping_mul(0xbf58_476d_1ce4_e5b9) >> 32;
-        Some(if hash % rare == 0 { r } else { 0.0 })
+        Some(if hash.is_multiple_of(rare) { r } else { 0.0 })
     }
 
     #[test]
@@ -208,7 +208,7 @@ mod tests {
     fn lines_that_miss_are_made_up_for() {
         let all = needed(0.001, [1, 1 << 30], |i, _| two_valued(i, 2)) as f64;
         let half = needed(0.001, [1, 1 << 30], |i, _| {
-            two_valued(i / 2, 2).filter(|_| i % 2 == 0)
+            two_valued(i / 2, 2).filter(|_| i.is_multiple_of(2))
         });
         let ratio = half as f64 / all;
         assert!((1.8..2.2).contains(&ratio), "{ratio}");

@@ -38,7 +38,7 @@ impl Numbers {
         let triangle = |i: usize| {
             let middle = self.point(gridded);
             let mut corners = [0; 3].map(|_| middle + 0.375 * self.point(gridded));
-            if i % 4 == 0 {
+            if i.is_multiple_of(4) {
                 corners.iter_mut().for_each(|c| c[i % 3] = middle[i % 3]);
             }
             Triangle(corners)
