@@ -110,7 +110,7 @@ pub struct PrecisionRecord {
     pub resolution: Option<f64>,
     /// Lines.
     pub lines: u64,
-    /// Nodes whose closed boxes the lines meet, exactly.
+    /// Nodes whose closed boxes the lines meet, exactly. Where the tree is refused, visits and tests are of the first 256 lines.
     pub visits: u64,
     /// Nodes visited that the line does not meet, by more than 8 ulp of the kernel's numbers.
     pub wrong_visits: u64,
@@ -142,7 +142,7 @@ pub struct PrecisionRecord {
     pub slope_error: Option<f64>,
     /// Its standard error.
     pub slope_se: Option<f64>,
-    /// Largest |z| of a node: (y - p)/sqrt(p(1 - p)/N).
+    /// Largest |z| of a node, (y - p)/sqrt(p(1 - p)/N), of those that at least 25 lines are expected to hit and to miss.
     pub max_z: Option<f64>,
     /// Nodes whose box has no area.
     pub flat_nodes: u64,

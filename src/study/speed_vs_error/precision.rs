@@ -28,6 +28,10 @@ const LEVEL: f64 = 0.95;
 /// Fewest lines expected to hit, and to miss, a node that `max_z` looks at: below, z is far from normal.
 const FEWEST: f64 = 25.0;
 
+/// Lines that are judged and timed where the tree is refused: it has collapsed, nearly every comparison is a tie, and lines visit it
+/// in large part. Its slope takes all lines.
+const OF_REFUSED: usize = 1 << 8;
+
 /// Units of progress of a scene: lines judged.
 pub fn units(asked: &Precision) -> u64 {
     2 * asked.lines * asked.kernels.len() as u64 * asked.offsets.len() as u64
@@ -167,14 +171,21 @@ impl<'a> Place<'a> {
             }
         };
         let score: Vec<f64> = p.iter().map(add).collect();
+        let refused = kernel != Kernel::F64 && resolution(&self.tree.world) < REFUSE_BELOW;
+        let enough = if refused { OF_REFUSED } else { lines.len() };
         let aimed = subject.aimed(lines, self.lines.seed);
         for (family, lines) in [("random", lines), ("aimed", &aimed)] {
-            let judged = judge::<M, T>(subject, lines, &score);
+            let judged = judge::<M, T>(subject, lines, enough, &score);
             found
                 .precision
                 .push(self.row(kernel, family, &judged, lines.len() as u64, &p));
         }
-        timed.extend(passes::<M, T>(kernel.name(), self.offset, subject, lines));
+        timed.extend(passes::<M, T>(
+            kernel.name(),
+            self.offset,
+            subject,
+            &lines[..enough.min(lines.len())],
+        ));
     }
 
     fn row(

@@ -84,27 +84,33 @@ impl Probe for Visited {
     }
 }
 
-/// Judge a kernel on some lines. `score` is what a visit of each node adds to a line's score.
+/// Take a kernel through some lines and judge the first `judged` of them. `score` is what a visit of each node adds to a line's
+/// score.
 pub fn judge<M: Mode, T: Planes<Vector: Exact> + Sync>(
     subject: &Subject<'_, T>,
     lines: &[Line<T::Vector>],
+    judged: usize,
     score: &[f64],
 ) -> Judged
 where
     T::Vector: Sync,
 {
-    let piece = |lines: &[Line<T::Vector>]| {
+    let size = lines.len().div_ceil(PIECES).max(1);
+    let piece = |(i, lines): (usize, &[Line<T::Vector>])| {
         let mut found = Judged {
             hits: vec![0; subject.boxes.len()],
             ..Judged::default()
         };
         let mut buffers = Buffers::default();
-        for line in lines {
-            found.add::<M, T>(subject, line, score, &mut buffers);
+        for (k, line) in lines.iter().enumerate() {
+            found.count::<M, T>(subject, line, score, &mut buffers);
+            if i * size + k < judged {
+                found.judge(subject, line, &mut buffers);
+            }
         }
         found
     };
-    let pieces = lines.par_chunks(lines.len().div_ceil(PIECES).max(1));
+    let pieces = lines.par_chunks(size).enumerate();
     let pieces: Vec<Judged> = pieces.map(piece).collect();
     let mut all = Judged {
         hits: vec![0; subject.boxes.len()],
@@ -146,54 +152,44 @@ impl<R: Real> Default for Buffers<R> {
 }
 
 impl Judged {
-    /// One more line.
-    fn add<M: Mode, T: Planes<Vector: Exact>>(
+    /// Take the kernel through one more line.
+    fn count<M: Mode, T: Planes<Vector: Exact>>(
         &mut self,
         subject: &Subject<'_, T>,
         line: &Line<T::Vector>,
         score: &[f64],
         buffers: &mut Buffers<T::Real>,
     ) {
-        let [origin, direction] = [line.origin, line.direction].map(Exact::exact);
-        let ray = Ray::new(*line, Span::FULL);
-        let Buffers {
-            stack,
-            visited,
-            met,
-            open,
-        } = buffers;
-
+        let Buffers { stack, visited, .. } = buffers;
         visited.0.clear();
-        let tests = &mut self.tests;
-        traverse::<M, T, _>(
-            subject.tree,
-            line,
-            Span::FULL,
-            stack,
-            visited,
-            |objects, _| {
-                for &object in objects {
-                    let triangle = &subject.triangles[object as usize];
-                    let exact = line_triangle(origin, direction, &triangle.0.map(Exact::exact));
-                    let hit = matches!(exact.meeting, Meeting::Hit(_));
-                    tests.judged += 1;
-                    if triangle.intersect(&ray).is_some() != hit {
-                        tests.add(hit, exact.ulps * T::Vector::UNIT);
-                    }
-                }
-                T::Real::INFINITY
-            },
-        );
-        let visited = &mut visited.0;
-        visited.sort_unstable();
+        traverse::<M, T, _>(subject.tree, line, Span::FULL, stack, visited, |_, _| {
+            T::Real::INFINITY
+        });
+        visited.0.sort_unstable();
         let mut sum = 0.0;
-        for &node in visited.iter() {
+        for &node in &visited.0 {
             self.hits[node as usize] += 1;
             sum += score[node as usize];
         }
         self.scores[0] += sum;
         self.scores[1] += sum * sum;
+    }
 
+    /// Judge what [`count`](Self::count) has just visited, and every triangle of the leaves among it.
+    fn judge<T: Planes<Vector: Exact>>(
+        &mut self,
+        subject: &Subject<'_, T>,
+        line: &Line<T::Vector>,
+        buffers: &mut Buffers<T::Real>,
+    ) {
+        let [origin, direction] = [line.origin, line.direction].map(Exact::exact);
+        let ray = Ray::new(*line, Span::FULL);
+        let Buffers {
+            visited: Visited(visited),
+            met,
+            open,
+            ..
+        } = buffers;
         // A line that meets a node's box meets its parent's.
         met.clear();
         open.clear();
@@ -218,6 +214,17 @@ impl Judged {
             if met.binary_search_by_key(&node, |m| m.0).is_err() {
                 let exact = line_box(origin, direction, &subject.boxes[node as usize]);
                 self.visits.add(false, exact.ulps * T::Vector::UNIT);
+            }
+            if let NodeKind::Leaf { first, count } = subject.tree.node(node) {
+                for &object in subject.tree.objects(first, count) {
+                    let triangle = &subject.triangles[object as usize];
+                    let exact = line_triangle(origin, direction, &triangle.0.map(Exact::exact));
+                    let hit = matches!(exact.meeting, Meeting::Hit(_));
+                    self.tests.judged += 1;
+                    if triangle.intersect(&ray).is_some() != hit {
+                        self.tests.add(hit, exact.ulps * T::Vector::UNIT);
+                    }
+                }
             }
         }
     }
