@@ -13,6 +13,8 @@ use super::text::{MEDIUM, SMALL, text_width};
 pub enum Key {
     /// A mark.
     Mark(Look),
+    /// A mark's outline.
+    Ring(Look),
     /// A line.
     Line(RGBAColor),
     /// A dashed line.
@@ -29,7 +31,7 @@ impl Key {
     /// From its left edge to the text.
     fn width(&self) -> f64 {
         match self {
-            Key::Mark(_) => MARK,
+            Key::Mark(_) | Key::Ring(_) => MARK,
             Key::Density(most) => 39.0 + text_width(&at_least(*most), SMALL),
             Key::Scale(from, to) => 39.0 + text_width(from, SMALL) + text_width(to, SMALL),
             _ => 18.0,
@@ -103,6 +105,7 @@ fn rows_for<'t>(width: f64, entries: impl Iterator<Item = (f64, &'t str)>) -> us
 fn draw_key(pen: &Pen, key: &Key, (x, y): (f64, f64)) {
     match *key {
         Key::Mark(look) => look.marker.draw(pen, (x + 3.0, y), 2.4, look.colour),
+        Key::Ring(look) => look.marker.ring(pen, (x + 3.0, y), 2.4, look.colour),
         Key::Line(colour) => pen.line(&[(x, y), (x + 14.0, y)], colour, 1.1),
         Key::Dashes(colour) => pen.dashes(&[(x, y), (x + 14.0, y)], colour, 0.9),
         Key::Area(colour) => pen.rectangle((x, y - 3.0), (x + 14.0, y + 3.0), colour),

@@ -17,8 +17,10 @@ mod figure3;
 #[cfg(test)]
 mod fixture;
 mod glyphs;
+mod grid;
 mod hits;
 mod legend;
+mod means;
 mod number;
 mod palette;
 mod panel;
@@ -28,6 +30,7 @@ mod read;
 pub mod render;
 pub mod screen;
 mod series;
+mod shown;
 mod slopes;
 mod speed_vs_error;
 mod split_cost;

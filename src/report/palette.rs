@@ -4,6 +4,8 @@ use plotters::style::RGBAColor;
 
 use super::figure::Pen;
 
+/// The page.
+pub const WHITE: RGBAColor = rgb(0xff, 0xff, 0xff);
 /// Text and the theory's line.
 pub const INK: RGBAColor = rgb(0x22, 0x22, 0x22);
 /// Second-rank text.
@@ -71,6 +73,13 @@ impl Marker {
             .map(|(u, v)| (x + radius * u, y + radius * v))
             .collect();
         pen.polygon(&corners, colour);
+    }
+
+    /// Draws the outline of the mark, its inside white.
+    pub fn ring(self, pen: &Pen, at: (f64, f64), radius: f64, colour: RGBAColor) {
+        self.draw(pen, at, radius, WHITE);
+        self.draw(pen, at, radius, colour);
+        self.draw(pen, at, 0.55 * radius, WHITE);
     }
 }
 

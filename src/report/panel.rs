@@ -226,4 +226,11 @@ impl<'p, 'a> Panel<'p, 'a> {
             marker.draw(self.pen, at, radius, colour);
         }
     }
+
+    /// The outline of a mark.
+    pub fn ring(&self, at: (f64, f64), marker: Marker, radius: f64, colour: RGBAColor) {
+        if let Some(at) = self.place(at) {
+            marker.ring(self.pen, at, radius, colour);
+        }
+    }
 }

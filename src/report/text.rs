@@ -29,6 +29,18 @@ pub fn fit(text: &str, size: f64, width: f64) -> String {
         .unwrap_or_default()
 }
 
+/// The text, or its beginning before an ellipsis where it is wider than that.
+pub fn beginning(text: &str, size: f64, width: f64) -> String {
+    if text_width(text, size) <= width {
+        return text.to_owned();
+    }
+    let starts = text.char_indices().rev();
+    let mut starts = starts.map(|(i, _)| format!("{}…", text[..i].trim_end()));
+    starts
+        .find(|start| text_width(start, size) <= width)
+        .unwrap_or_default()
+}
+
 /// The text with its first letter, if it is an ASCII one, made a capital.
 pub fn capitalised(text: &str) -> String {
     let mut characters = text.chars();

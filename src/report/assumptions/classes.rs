@@ -1,7 +1,8 @@
 //! Where the metric errs, over all trees: by the size of nodes and by their place.
 
 use super::Assumptions;
-use super::tables::{geometric, value};
+use super::tables::value;
+use crate::report::means::geometric;
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{BiasRecord, GroupRecord};
 

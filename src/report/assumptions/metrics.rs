@@ -6,10 +6,11 @@ use plotters::style::text_anchor::{HPos, VPos};
 
 use super::Assumptions;
 use super::rows::{HEADINGS, Rows};
-use super::tables::{arithmetic, value};
+use super::tables::value;
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::{Figure, LEFT, WIDTH};
 use crate::report::legend::{Key, legend};
+use crate::report::means::arithmetic;
 use crate::report::number::fixed;
 use crate::report::palette::{AXIS, INK, Look, MUTED, Marker, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};

@@ -2,7 +2,8 @@
 
 use super::Assumptions;
 use super::names::Broken;
-use super::tables::{OfSet, arithmetic, value};
+use super::tables::{OfSet, value};
+use crate::report::means::arithmetic;
 use crate::report::table::{Cell, Column, Table};
 
 /// The main figures of every set.

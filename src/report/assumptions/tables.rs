@@ -2,20 +2,10 @@
 
 use super::Assumptions;
 use super::names::{Broken, words};
+use crate::report::means::{arithmetic, geometric};
 use crate::report::number::percent_above;
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{BiasRecord, ExactRecord, OrderRecord};
-
-/// Geometric mean of positive numbers; `None` of nothing.
-pub fn geometric(values: &[f64]) -> Option<f64> {
-    let logarithms = values.iter().map(|value| value.ln()).sum::<f64>();
-    (!values.is_empty()).then(|| (logarithms / values.len() as f64).exp())
-}
-
-/// Mean; `None` of nothing.
-pub fn arithmetic(values: &[f64]) -> Option<f64> {
-    (!values.is_empty()).then(|| values.iter().sum::<f64>() / values.len() as f64)
-}
 
 /// A number to so many decimals, if it is known.
 pub fn value(value: Option<f64>, decimals: usize) -> Cell {

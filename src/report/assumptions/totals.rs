@@ -114,7 +114,7 @@ impl Part {
                 })
                 .collect();
             let values: Vec<f64> = of_set.iter().map(|one| one.1).collect();
-            if let Some(mean) = super::tables::geometric(&values) {
+            if let Some(mean) = crate::report::means::geometric(&values) {
                 let reach = 0.42 * ROW;
                 panel.line(&[(mean, y - reach), (mean, y + reach)], INK, 1.6);
                 let at = (frame.right + 3.0, rows.middle(i));

@@ -10,7 +10,6 @@ mod findings;
 mod fixture;
 mod screen;
 mod sets;
-mod shown;
 mod spread;
 #[cfg(test)]
 mod tests;

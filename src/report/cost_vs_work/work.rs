@@ -1,11 +1,11 @@
 //! The tables of counts: what areas predict against what rays of many kinds do.
 
 use super::agreement::Agreement;
-use super::shown::{known, percent, ratio, tau, text};
 use super::spread::Spread;
 use super::{CostVsWork, sets};
 use crate::report::number::counted;
 use crate::report::series::{constants, distinct};
+use crate::report::shown::{known, percent, ratio, tau, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{TreeOrderRecord, WorkRecord};
 

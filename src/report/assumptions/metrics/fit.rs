@@ -1,8 +1,8 @@
 //! How well one metric expects what one set of rays costs.
 
 use super::super::Assumptions;
-use super::super::tables::{arithmetic, geometric};
 use crate::report::axis::extent;
+use crate::report::means::{arithmetic, geometric};
 use crate::study::records::{MetricRecord, OrderRecord};
 
 /// The surface area metric's name.

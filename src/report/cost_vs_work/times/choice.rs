@@ -1,7 +1,7 @@
 //! The steps by which terms were chosen.
 
 use super::super::CostVsWork;
-use super::super::shown::{change, percent, text};
+use crate::report::shown::{change, percent, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::ChoiceRecord;
 

@@ -1,9 +1,9 @@
 //! The constants, and which of them the times can tell apart.
 
 use super::super::CostVsWork;
-use super::super::shown::{known, percent, text};
 use crate::report::number::{decimals_for, digits_for, fixed};
 use crate::report::series::distinct;
+use crate::report::shown::{known, percent, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::ConstantRecord;
 

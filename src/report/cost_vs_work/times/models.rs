@@ -1,8 +1,8 @@
 //! How well the models predict scenes that they were not fitted to.
 
 use super::super::CostVsWork;
-use super::super::shown::{known, percent, tau, text};
 use crate::report::number::counted;
+use crate::report::shown::{known, percent, tau, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{ModelRecord, OrderOfTimesRecord};
 

@@ -1,9 +1,9 @@
 //! How far predicted times are from measured ones: by scene, by strategy, by set of rays.
 
 use super::super::CostVsWork;
-use super::super::shown::{change, known, percent, text};
 use super::super::spread::median;
 use crate::report::series::distinct;
+use crate::report::shown::{change, known, percent, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::PredictionRecord;
 

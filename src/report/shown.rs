@@ -1,4 +1,4 @@
-//! How the numbers of this kind read in tables.
+//! How numbers read in the tables of several kinds.
 
 use crate::report::number::digits_for;
 use crate::report::table::Cell;
