@@ -1,10 +1,20 @@
 //! What a run of kind `stability` left behind, and what is made of it.
 
+mod cell;
+#[cfg(test)]
+mod fixture;
+mod matrix;
+mod outcomes;
+mod screen;
+mod tables;
+#[cfg(test)]
+mod tests;
+
 use std::path::Path;
 
 use super::read::optional_rows;
 use super::table::Table;
-use super::{Figure, ReportError, tables};
+use super::{Figure, ReportError};
 use crate::study::records::{CaseRecord, MetamorphicRecord, RandomRecord, Summary, TieRecord};
 
 /// The files of a run of kind `stability`.
@@ -32,16 +42,30 @@ impl Stability {
         })
     }
 
-    pub(super) fn figures(&self, _summary: &Summary) -> Vec<(String, Figure)> {
-        Vec::new()
+    /// `stability`, on as many pages as the cases take.
+    pub(super) fn figures(&self, summary: &Summary) -> Vec<(String, Figure)> {
+        matrix::figures(self, summary)
     }
 
+    /// The tables of what the run has.
     pub(super) fn tables(&self, summary: &Summary) -> Vec<(&'static str, Table)> {
-        vec![("verdicts", tables::verdicts(summary))]
+        let mut all = vec![("verdicts", super::tables::verdicts(summary))];
+        if !self.cases.is_empty() {
+            all.push(("cases", tables::cases(self)));
+        }
+        if !self.random.is_empty() {
+            all.push(("random", tables::random(self)));
+            // Without a tie judged wrongly, which is a result, the table is empty.
+            all.push(("ties", tables::ties(self)));
+        }
+        if !self.metamorphic.is_empty() {
+            all.push(("metamorphic", tables::metamorphic(self)));
+        }
+        all
     }
 
     /// The tables of the screen.
-    pub(super) fn screen(&self, _width: usize) -> String {
-        String::new()
+    pub(super) fn screen(&self, width: usize) -> String {
+        screen::tables(self, width)
     }
 }
