@@ -130,9 +130,9 @@ fn precision(run: &mut SpeedVsError, scene: &str) {
             ("f32-padded", 41.0, 60),
         ] {
             let visits_s = 1e-9 * ns * visits as f64;
-            for rays in ["lines", "lines:nearest"] {
-                let what = format!("{kernel} {rays}");
-                run.timings.push(timing(&cell, &what, 1 << 18, visits_s));
+            for (unit, units) in [("visit", visits), ("ray", 1 << 18)] {
+                let what = format!("{kernel} {unit} {offset:e}");
+                run.timings.push(timing(&cell, &what, units, visits_s));
             }
             let verdict = match (kernel, k) {
                 ("f64", _) | (_, 0 | 1) => "clean",

@@ -51,7 +51,7 @@ fn seconds_are_those_of_the_latest_run() {
 }
 
 #[test]
-fn a_visit_is_a_line_over_its_nodes() {
+fn a_visit_has_its_own_time() {
     let run = parts();
     let aimed = run.precision.iter().find(|row| row.family == "aimed");
     let ns = run.visit_ns(aimed.unwrap()).unwrap();

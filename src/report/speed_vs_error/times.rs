@@ -34,20 +34,16 @@ impl SpeedVsError {
         Some(line * row.lines as f64)
     }
 
-    /// Nanoseconds of a line by a kernel; `rays` is `lines` or `lines:nearest`.
-    pub(super) fn kernel_ns(&self, row: &PrecisionRecord, rays: &str) -> Option<f64> {
-        let timing = self.timing(&row.cell, &format!("{} {rays}", row.kernel))?;
+    /// Nanoseconds of a `visit` of a node by lines that nothing stops, or of a `ray` up to its nearest hit, by a kernel.
+    pub(super) fn kernel_ns(&self, row: &PrecisionRecord, unit: &str) -> Option<f64> {
+        let what = format!("{} {unit} {:e}", row.kernel, row.offset);
+        let timing = self.timing(&row.cell, &what)?;
         Some(1e9 * timing.seconds / timing.units as f64)
     }
 
-    /// Nanoseconds of a node's visit by a kernel: those of a line over the nodes that random lines meet.
+    /// Nanoseconds of a visit.
     pub(super) fn visit_ns(&self, row: &PrecisionRecord) -> Option<f64> {
-        let same = |r: &&PrecisionRecord| {
-            r.cell == row.cell && r.kernel == row.kernel && r.family == "random" && r.visits > 0
-        };
-        let random = self.precision.iter().find(same)?;
-        let visits = random.visits as f64 / random.lines as f64;
-        Some(self.kernel_ns(row, "lines")? / visits)
+        self.kernel_ns(row, "visit")
     }
 
     /// Seconds of building a tree.

@@ -297,7 +297,7 @@ pub fn verdicts(asked: &SpeedVsError, found: &[Found]) -> Vec<Verdict> {
     if kernels.contains(&Kernel::F32Padded) {
         let missed = of(Kernel::F32Padded, |r| r.missed_visits);
         all.push(Verdict {
-            name: "f32-padded-misses-nothing".into(),
+            name: "padded".into(),
             held: missed == 0,
             message: format!(
                 "f32, padded: {missed} of {} visits missed by more than 8 ulp",

@@ -53,7 +53,7 @@ pub fn times(
         pass_s: f64::INFINITY,
     };
     let row = |job: Job| {
-        let what = format!("{} {} {}", job.way.method.name(), job.way.ask, job.lines);
+        let what = format!("{} {} {}", job.way.method.name(), job.way.rays(), job.lines);
         PassTiming {
             cell: piece.id.clone(),
             scene: piece.scene.name.clone(),

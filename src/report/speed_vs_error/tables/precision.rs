@@ -84,36 +84,34 @@ pub fn times_precision(run: &SpeedVsError) -> Option<Table> {
         Column::right("offset", "offset"),
         Column::left("kernel", "kernel"),
         Column::right("ns a visit", "visit_ns"),
-        Column::right("ns a line", "line_ns"),
-        Column::right("over f64", "over_f64"),
-        Column::right("ns a line to its nearest hit", "nearest_ns"),
-        Column::right("over f64", "nearest_over_f64"),
+        Column::right("over f64's", "visit_over_f64"),
+        Column::right("ns a ray", "ray_ns"),
+        Column::right("over f64's", "ray_over_f64"),
     ];
     let row = |r: &PrecisionRecord| {
         let same = |o: &&PrecisionRecord| {
             o.kernel == "f64" && o.scene == r.scene && o.offset == r.offset && o.family == r.family
         };
         let f64s = run.precision.iter().find(same);
-        let over = |rays: &str| Some(run.kernel_ns(r, rays)? / run.kernel_ns(f64s?, rays)?);
-        let [line, nearest] = ["lines", "lines:nearest"].map(|rays| run.kernel_ns(r, rays));
-        (line.is_some() || nearest.is_some()).then(|| {
+        let over = |unit: &str| Some(run.kernel_ns(r, unit)? / run.kernel_ns(f64s?, unit)?);
+        let [visit, ray] = ["visit", "ray"].map(|unit| run.kernel_ns(r, unit));
+        (visit.is_some() || ray.is_some()).then(|| {
             vec![
                 text(&r.scene),
                 Cell::Value(r.offset, digits_for(r.offset, 1)),
                 text(&r.kernel),
-                known(run.visit_ns(r), ratio),
-                known(line, ratio),
-                known(over("lines"), |x| Cell::Value(x, 2)),
-                known(nearest, ratio),
-                known(over("lines:nearest"), |x| Cell::Value(x, 2)),
+                known(visit, ratio),
+                known(over("visit"), |x| Cell::Value(x, 2)),
+                known(ray, ratio),
+                known(over("ray"), |x| Cell::Value(x, 2)),
             ]
         })
     };
     let random = run.precision.iter().filter(|row| row.family == "random");
     let rows: Vec<_> = random.filter_map(row).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: "Time of a random line by each kernel, on one thread: nothing stops it, per line and per node it meets; or it is followed \
-                  to its nearest hit."
+        caption: "Time of random lines by each kernel, on one thread: of a visit of a node where nothing stops the line, of a ray up to \
+                  its nearest hit. Of refused trees, which have collapsed, only the first lines were timed."
             .to_owned(),
         columns,
         keys: 3,
