@@ -1,12 +1,14 @@
 //! What is in the world: procedural scenes and scenes read from files.
 //!
 //! A scene is named by one word: `simple:NAME[:N]` (made here, after the kinds of scene that MacDonald & Booth tried),
-//! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), or the path of a file. The same word gives the same bits
+//! `spd:NAME[:SIZE]` (Haines' Standard Procedural Databases), `hard:NAME[:SIZE]` (what breaks builders and traversals), or the
+//! path of a file. The same word gives the same bits
 //! on every machine: only + - * / and square roots, `libm`, and random numbers from a fixed seed are used.
 
 mod catalogue;
 mod draft;
 mod error;
+mod hard;
 pub mod look;
 mod mesh;
 mod nff;
@@ -24,6 +26,7 @@ use std::ops::RangeInclusive;
 use crate::geom::{Aabb, Objects, Polygon, Triangle};
 
 pub use catalogue::catalogue;
+pub(crate) use catalogue::nearest_name;
 use catalogue::{Make, Recipe, generate, unknown};
 use draft::Draft;
 pub use error::SceneError;
@@ -131,12 +134,12 @@ impl Scene {
         })
     }
 
-    /// The scene of that name: `simple:NAME[:N]`, `spd:NAME[:SIZE]`, or a path that ends in one of [`EXTENSIONS`].
+    /// The scene of that name: `simple:NAME[:N]`, `spd:NAME[:SIZE]`, `hard:NAME[:SIZE]`, or a path that ends in one of [`EXTENSIONS`].
     ///
     /// A procedural scene's name always carries its size, so that one scene has one name.
     pub fn load(spec: &str) -> Result<Self, SceneError> {
         match spec.split_once(':') {
-            Some((group @ ("simple" | "spd"), rest)) => generate(spec, group, rest),
+            Some((group @ ("simple" | "spd" | "hard"), rest)) => generate(spec, group, rest),
             _ => read(spec),
         }
     }

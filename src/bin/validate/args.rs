@@ -84,7 +84,7 @@ pub enum Command {
     /// One scene: its objects, a tree per strategy, predicted and counted work (of lines, of rays that stop, of your own), which
     /// strategy to take, and for which rays the prediction can be trusted.
     Scene {
-        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
+        /// simple:NAME, spd:NAME:SIZE, hard:NAME, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
         scene: String,
         /// When nodes become leaves: `depth:D`, `objects:N[:D]`, `cost-k:K[:D]`, `cost-gain[:D]`,
@@ -113,7 +113,7 @@ pub enum Command {
     /// Rays begin at t = 0; t, in the file and in what is written, counts in units of the direction, which need not have
     /// length 1.
     Trace {
-        /// simple:NAME, spd:NAME:SIZE, or a .obj, .ply, .stl, .off or .nff file.
+        /// simple:NAME, spd:NAME:SIZE, hard:NAME, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
         scene: String,
         /// .csv with the header ox,oy,oz,dx,dy,dz or ox,oy,oz,dx,dy,dz,tmax (blank: no end), or .npy of shape (n, 6) or
@@ -134,7 +134,7 @@ pub enum Command {
         #[arg(long)]
         clipped: bool,
     },
-    /// What can be named: scenes, strategies, samplers, rays, experiments.
+    /// What can be named: scenes, strategies, samplers, rays, hard cases, experiments.
     List {
         /// Only this list.
         what: Option<Listed>,
@@ -192,6 +192,8 @@ pub enum Listed {
     Samplers,
     /// Sets of rays.
     Rays,
+    /// Hard cases of the kind `stability`.
+    Cases,
     /// Experiments that come with the program.
     Experiments,
 }

@@ -96,7 +96,7 @@ fn uniform(n: usize, mut random: Random) -> Objects {
 }
 
 /// Triangles with edges as long as the mean distance; the centres are uniform in the cube.
-fn soup(n: usize, mut random: Random) -> Objects {
+pub(super) fn soup(n: usize, mut random: Random) -> Objects {
     let radius = spacing(n) / 3_f64.sqrt();
     let triangles = (0..n).map(|_| {
         let centre = random.point();
