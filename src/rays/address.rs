@@ -25,6 +25,8 @@ pub enum Purpose {
     Strata = 6,
     /// Keys that scramble a Sobol' sequence.
     Scrambles = 7,
+    /// Lines aimed at edges and corners.
+    Pairs = 8,
 }
 
 /// A generator for a seed and a purpose, at the start of its stream.

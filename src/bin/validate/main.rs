@@ -22,7 +22,7 @@ use sahlab::rays::{LineLaw, Source};
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
 use sahlab::study::plan::{Overrides, PlanError};
-use sahlab::study::{self, Plan};
+use sahlab::study::{self, Plan, stability};
 use sahlab::tracer::RayKind;
 
 use args::{Cli, Command, Common, Listed};
@@ -295,6 +295,16 @@ fn list(what: Option<Listed>) -> String {
         Listed::Rays,
         "rays (SOURCE: nothing stops them; SOURCE:nearest, SOURCE:any: up to their first, or any, hit; wrong: not the metric's)",
         sources.chain(kinds).collect(),
+    );
+    let cases = stability::catalogue();
+    let cases = cases.iter().map(|case| {
+        let about = format!("{}: {}", case.group.name(), case.stresses);
+        (case.name.to_string(), about)
+    });
+    section(
+        Listed::Cases,
+        "hard cases (GROUP: what it stresses)",
+        cases.collect(),
     );
     let about = |text: &str| {
         text.lines()

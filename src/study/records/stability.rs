@@ -55,6 +55,8 @@ pub struct RandomRecord {
     pub ties: u64,
     /// Of them, those judged wrongly.
     pub tied_wrong: u64,
+    /// Of those, hits taken for missed: a padded kernel has none.
+    pub tied_missed: u64,
 }
 
 /// A pair judged wrongly, nearer than 8 ulp to a tie. A row of `ties.csv`; of many the first of each row of `random.csv`.

@@ -41,6 +41,8 @@ impl Stability {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, _scenes: &[String]) -> Result<(), Wrong> {
         check_strategies(&self.strategies)?;
+        let known = super::catalogue::select(self.cases.as_deref());
+        wrong_unless(known.is_ok(), "cases", || known.err().unwrap_or_default())?;
         let f64_there = self.kernels.contains(&Kernel::F64);
         wrong_unless(f64_there, "kernels", || {
             "kernels must name 'f64', of which right answers are demanded".into()

@@ -1,5 +1,7 @@
 //! What a hard case is: a name, the property it stresses, and a check that tells what is right and what came out.
 
+use std::sync::Arc;
+
 use crate::kd::Rules;
 use crate::study::kernel::Kernel;
 
@@ -27,6 +29,19 @@ pub enum Group {
 }
 
 impl Group {
+    /// Each of them.
+    pub const ALL: [Self; 9] = [
+        Self::Lines,
+        Self::Boxes,
+        Self::Triangles,
+        Self::Spheres,
+        Self::Cones,
+        Self::Polygons,
+        Self::Trees,
+        Self::Files,
+        Self::Statistics,
+    ];
+
     /// The name in files.
     pub const fn name(self) -> &'static str {
         match self {
@@ -44,6 +59,7 @@ impl Group {
 }
 
 /// A hard case.
+#[derive(Clone)]
 pub struct Case {
     /// Its name, e.g. `corner-touch`: on the command line, in files, in the matrix.
     pub name: &'static str,
@@ -55,14 +71,21 @@ pub struct Case {
     pub check: Check,
 }
 
+/// A check by a kernel.
+pub type ByKernel = dyn Fn(Kernel) -> Option<Finding> + Send + Sync;
+
+/// A check in a tree by a kernel.
+pub type ByTree = dyn Fn(&Rules, Kernel) -> Option<Finding> + Send + Sync;
+
 /// How a case is checked: once, by every kernel, or through the tree of every strategy by every kernel.
+#[derive(Clone)]
 pub enum Check {
     /// Depends neither on a kernel nor on a tree.
     Once(fn() -> Finding),
     /// By a kernel; `None` where it is not for this one.
-    Kernels(fn(Kernel) -> Option<Finding>),
+    Kernels(Arc<ByKernel>),
     /// In a tree of these rules by a kernel; `None` where it is not for this one.
-    Trees(fn(&Rules, Kernel) -> Option<Finding>),
+    Trees(Arc<ByTree>),
 }
 
 /// What came of a check.
@@ -104,6 +127,16 @@ impl Outcome {
 }
 
 impl Finding {
+    /// Demanded, and failed for a reason that is told.
+    pub fn failed(expected: impl ToString, measured: impl ToString) -> Self {
+        Self {
+            expected: expected.to_string(),
+            measured: measured.to_string(),
+            outcome: Outcome::Failed,
+            demanded: true,
+        }
+    }
+
     /// Demanded: what came out must read as what is expected.
     pub fn of(expected: impl ToString, measured: impl ToString) -> Self {
         let (expected, measured) = (expected.to_string(), measured.to_string());

@@ -1,38 +1,111 @@
 //! The experiment `stability`: named hard cases with their exact outcome, by every strategy and kernel; random cases held against
 //! exact integers; trees and lines transformed together.
 
+mod aim;
 pub mod asked;
+mod boxes;
 pub mod case;
+mod catalogue;
+mod cones;
 pub mod files;
+mod first_hit;
+mod guard;
+mod incidence;
+mod judge;
+mod lines;
+mod metamorphic;
+mod pieces;
+mod polygons;
+mod random;
+mod spheres;
 pub mod statistics;
+mod trees;
+mod triangles;
+mod verdicts;
+
+use serde::{Deserialize, Serialize};
 
 use super::records::{CaseRecord, MetamorphicRecord, RandomRecord, Summary, TieRecord};
+use super::resume::piece_by_piece;
 use super::store::Store;
 use super::{Plan, RunError, Watcher};
 use crate::scene::Scene;
 
 pub use asked::Stability;
+pub use catalogue::catalogue;
+use pieces::{Piece, pieces};
+use verdicts::verdicts;
+
+/// What a piece of the run found.
+#[derive(Clone, Debug, Default, Serialize, Deserialize)]
+struct Found {
+    cases: Vec<CaseRecord>,
+    random: Vec<RandomRecord>,
+    ties: Vec<TieRecord>,
+    metamorphic: Vec<MetamorphicRecord>,
+    /// What the user should know.
+    notes: Vec<String>,
+}
 
 /// Measure what is not finished and write the files of the run.
 pub(super) fn run(
     plan: &Plan,
     asked: &Stability,
-    _scenes: &[Scene],
+    scenes: &[Scene],
     store: &Store,
-    _watcher: &impl Watcher,
+    watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    store.write_rows::<CaseRecord>("cases.csv", [])?;
-    store.write_rows::<RandomRecord>("random.csv", [])?;
-    store.write_rows::<TieRecord>("ties.csv", [])?;
-    store.write_rows::<MetamorphicRecord>("metamorphic.csv", [])?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = pieces
+        .iter()
+        .map(|piece| store.finished(&piece.id))
+        .collect();
+    let announce = |left: &[&Piece<'_>]| {
+        let what: Vec<String> = left.iter().map(|piece| piece.to_string()).collect();
+        watcher.announce(&format!("judging {}", what.join("; ")));
+    };
+    let measure = |piece: &Piece<'_>| {
+        watcher.begin(&piece.to_string());
+        let found = piece.measure(plan, asked).map_err(|fault| RunError::Bug {
+            place: piece.to_string(),
+            fault,
+        })?;
+        store.save(&piece.id, &found)?;
+        watcher.done(piece.extent().units);
+        Ok(found)
+    };
+    let found: Vec<Found> = piece_by_piece(
+        &pieces,
+        found,
+        Piece::extent,
+        "parts",
+        watcher,
+        announce,
+        measure,
+    )?;
+    for note in found.iter().flat_map(|f| &f.notes) {
+        watcher.note(note);
+    }
+    store.write_rows("cases.csv", found.iter().flat_map(|f| &f.cases))?;
+    store.write_rows("random.csv", found.iter().flat_map(|f| &f.random))?;
+    store.write_rows("ties.csv", found.iter().flat_map(|f| &f.ties))?;
+    store.write_rows("metamorphic.csv", found.iter().flat_map(|f| &f.metamorphic))?;
     store.write_summary(&Summary {
         stop: Some(asked.stop.to_string()),
+        verdicts: verdicts(&found),
         ..plan.summary()
     })?;
     Ok(())
 }
 
-/// The cases of a dry run, a line each.
-pub(super) fn describe(plan: &Plan, asked: &Stability, _scenes: &[Scene]) -> String {
-    format!("stop {}, seed {}\n", asked.stop, plan.seed)
+/// The cases and the pieces of a dry run, a line each.
+pub(super) fn describe(plan: &Plan, asked: &Stability, scenes: &[Scene]) -> String {
+    let mut text = format!("stop {}, seed {}\n", asked.stop, plan.seed);
+    for piece in pieces(plan, asked, scenes) {
+        text += &format!("{}  {piece}\n", piece.id);
+        for case in piece.cases() {
+            text += &format!("    {:32}  {}\n", case.name, case.stresses);
+        }
+    }
+    text
 }

@@ -1,0 +1,270 @@
+//! All that is demanded of a tree and of a kernel's way through it.
+
+use crate::geom::{Object, Ray, Real, Triangle, Vector};
+use crate::kd::audit::{audit, audit_clipped};
+use crate::kd::narrow::{narrow_line, narrow_triangles};
+use crate::kd::stop::{automatic_depth, default_depth};
+use crate::kd::{
+    Counting, Hit, Mode, NoProbe, Planes, Rules, Stack, StopRule, Tracing, Tree, build_objects,
+    nearest, traverse,
+};
+use crate::scene::Scene;
+use crate::study::kernel::Kernel;
+use crate::study::stability::case::{Finding, Outcome};
+use crate::study::stability::incidence::{KernelTree, Seen, Tally};
+
+use super::TreeCase;
+use super::hard_rays::hard_rays;
+
+/// Depth up to which a full tree is small: deeper ones must be stopped by their objects.
+const SHALLOW: usize = 16;
+
+/// Most nodes an object of a tree that may be deeper.
+const MOST_AN_OBJECT: usize = 64;
+
+/// Most references a node, in the mean.
+const MOST_A_NODE: usize = 16;
+
+/// Build, and follow the hard rays.
+pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
+    let most = depth_bound(rules.stop, 0);
+    let scene = match Scene::load(case.scene) {
+        Ok(scene) => scene,
+        Err(error) => return Finding::failed("a scene", error),
+    };
+    let most = most.unwrap_or_else(|| depth_bound(rules.stop, scene.bounds.len()).unwrap_or(0));
+    let expected = format!("depth at most {most}, every visit and nearest hit right");
+    let tree = build_objects(&scene.objects, &scene.bounds, scene.world, rules);
+    if let Err(fault) = sound(case, &scene, &tree, most) {
+        return Finding::failed(expected, fault);
+    }
+    let in_kernel = match KernelTree::of(kernel, &tree) {
+        Ok(_) if case.too_coarse && kernel != Kernel::F64 => {
+            return Finding::failed("refused as too coarse", "taken");
+        }
+        Ok(in_kernel) => in_kernel,
+        Err(refusal) => {
+            return Finding {
+                expected: if case.too_coarse {
+                    "refused as too coarse".into()
+                } else {
+                    expected
+                },
+                measured: refusal.to_string(),
+                outcome: if case.too_coarse {
+                    Outcome::Pass
+                } else {
+                    Outcome::Refused
+                },
+                demanded: true,
+            };
+        }
+    };
+    let rays = hard_rays(&scene, &tree);
+    let followed = visits(kernel, &in_kernel, &rays)
+        .and_then(|tally| Ok((tally, differing(&scene, &in_kernel, &rays)?)));
+    match followed {
+        Ok((tally, differing)) => {
+            let Tally {
+                cases,
+                wrong,
+                missed,
+                ties,
+                tied_wrong,
+                tied_missed,
+                ..
+            } = tally;
+            let hits = match differing {
+                Some(n) => format!(", {n} of {} nearest hits differ", rays.len()),
+                None => String::new(),
+            };
+            let mut measured = format!(
+                "depth {}, {cases} visits judged: {wrong} wrong, {missed} missed",
+                tree.depth
+            );
+            if ties > 0 {
+                measured += &format!(" ({} and {} of {ties} ties)", tied_wrong, tied_missed);
+            }
+            let (outcome, demanded) = judge(kernel, &tally, differing.unwrap_or(0));
+            Finding {
+                expected,
+                measured: measured + &hits,
+                outcome,
+                demanded,
+            }
+        }
+        Err(refusal) => Finding {
+            expected,
+            measured: refusal,
+            outcome: Outcome::Refused,
+            demanded: false,
+        },
+    }
+}
+
+/// What a kernel's errors mean: `f64` may err in ties only and must find each nearest hit; padded planes must not miss.
+fn judge(kernel: Kernel, tally: &Tally, differing: u64) -> (Outcome, bool) {
+    let misses = tally.missed + tally.tied_missed;
+    let errors = tally.wrong + tally.missed;
+    match kernel {
+        Kernel::F64 if errors + differing == 0 => (Outcome::Pass, true),
+        Kernel::F64 => (Outcome::Failed, true),
+        Kernel::F32Padded if misses > 0 => (Outcome::Failed, true),
+        Kernel::F32Padded if differing > 0 => (Outcome::Off(differing as f64), false),
+        Kernel::F32Padded => (Outcome::Pass, true),
+        Kernel::F32 => match errors + tally.tied_wrong + tally.tied_missed + differing {
+            0 => (Outcome::Pass, false),
+            n => (Outcome::Off(n as f64), false),
+        },
+    }
+}
+
+/// The deepest leaf that a stop rule allows; `None` if it depends on the number of objects and that is 0.
+fn depth_bound(stop: StopRule, objects: usize) -> Option<usize> {
+    let named = match stop {
+        StopRule::Depth(depth) | StopRule::Octree { depth, .. } => Some(depth),
+        StopRule::Objects { depth, .. }
+        | StopRule::CostK { depth, .. }
+        | StopRule::CostGain { depth }
+        | StopRule::Automatic { depth } => depth,
+    };
+    match (named, stop) {
+        (Some(depth), _) => Some(depth as usize),
+        (None, _) if objects == 0 => None,
+        (None, StopRule::Automatic { .. }) => Some(automatic_depth(objects)),
+        (None, _) => Some(default_depth(objects)),
+    }
+}
+
+/// What holds of every tree, and what is known of this one.
+fn sound(case: &TreeCase, scene: &Scene, tree: &Tree, most: usize) -> Result<(), String> {
+    let audited = if case.clipped {
+        audit_clipped(tree, &scene.objects, &scene.bounds)
+    } else {
+        audit(tree, &scene.bounds)
+    };
+    audited.map_err(|faults| faults.join("; "))?;
+    if tree.depth > most {
+        return Err(format!("depth {}", tree.depth));
+    }
+    let bound = if most <= SHALLOW {
+        (2 << most) - 1
+    } else {
+        MOST_AN_OBJECT * (scene.bounds.len() + 1)
+    };
+    let (nodes, references) = (tree.nodes.len(), tree.references.len());
+    if nodes > bound || references > MOST_A_NODE * bound {
+        return Err(format!(
+            "{nodes} nodes and {references} references, at most {bound} and {MOST_A_NODE} times as many expected"
+        ));
+    }
+    let found = [tree.leaves(), references];
+    match case.known {
+        Some(known) if known != found => Err(format!(
+            "{} leaves and {} references, {} and {} expected",
+            found[0], found[1], known[0], known[1]
+        )),
+        _ => Ok(()),
+    }
+}
+
+/// Every node that the lines visit or should, judged.
+fn visits(kernel: Kernel, tree: &KernelTree<'_>, rays: &[Ray]) -> Result<Tally, String> {
+    let (mut tally, mut seen) = (Tally::default(), Seen::default());
+    for ray in rays {
+        let exact = tree
+            .visit(&ray.line, &mut seen)
+            .map_err(|refusal| refusal.to_string())?;
+        tree.judge(&exact, &seen, |_, visited, exact| {
+            tally.add(kernel, visited, exact.hit, exact.ulps);
+        });
+    }
+    Ok(tally)
+}
+
+/// Rays whose nearest hit through the tree is not that of testing every object, bit for bit, or is not a number. `None` where the
+/// kernel has no test for the objects.
+fn differing(scene: &Scene, tree: &KernelTree<'_>, rays: &[Ray]) -> Result<Option<u64>, String> {
+    let objects = &scene.objects;
+    let mut differing = 0;
+    match tree {
+        KernelTree::Wide(tree) => {
+            let mut stack = Stack::default();
+            for ray in rays {
+                let through = nearest(tree, objects, ray, &mut stack);
+                let mut best = None;
+                for number in 0..objects.len() as u32 {
+                    if let Some(t) = objects.intersect(number, ray) {
+                        best = Hit::nearer(best, number, t);
+                    }
+                }
+                let sane = through
+                    .is_none_or(|hit| hit.t.is_finite() && has_area(objects.get(hit.object)));
+                differing += u64::from(through != best || !sane);
+            }
+        }
+        KernelTree::Narrow(_, narrow, padded) => {
+            let Ok(triangles) = narrow_triangles(objects) else {
+                return Ok(None);
+            };
+            for ray in rays {
+                let line = narrow_line(&ray.line).map_err(|refusal| refusal.to_string())?;
+                let span = crate::geom::Span {
+                    t0: ray.span.t0 as f32,
+                    t1: ray.span.t1 as f32,
+                };
+                let ray = Ray::new(line, span);
+                let through = if *padded {
+                    nearest_triangle::<Tracing, _>(narrow, &triangles, &ray)
+                } else {
+                    nearest_triangle::<Counting, _>(narrow, &triangles, &ray)
+                };
+                let mut best = None;
+                for number in 0..triangles.len() as u32 {
+                    best = nearer(best, number, &triangles, &ray);
+                }
+                differing += u64::from(through != best);
+            }
+        }
+    }
+    Ok(Some(differing))
+}
+
+fn has_area(object: Object<'_>) -> bool {
+    match object {
+        Object::Triangle(triangle) => triangle.normal() != glam::DVec3::ZERO,
+        _ => true,
+    }
+}
+
+/// The nearer of the best hit so far and that of a triangle; at equal t the lower number.
+fn nearer<V: Vector>(
+    best: Option<(V::Real, u32)>,
+    number: u32,
+    triangles: &[Triangle<V>],
+    ray: &Ray<V>,
+) -> Option<(V::Real, u32)> {
+    match (best, triangles[number as usize].intersect(ray)) {
+        (Some(best), Some(t)) if best <= (t, number) => Some(best),
+        (_, Some(t)) => Some((t, number)),
+        (best, None) => best,
+    }
+}
+
+/// The nearest hit through a tree of any numbers.
+fn nearest_triangle<M: Mode, T: Planes>(
+    tree: &T,
+    triangles: &[Triangle<T::Vector>],
+    ray: &Ray<T::Vector>,
+) -> Option<(T::Real, u32)> {
+    let mut best = None;
+    let leaf = |in_leaf: &[u32], _: &mut NoProbe| {
+        for &number in in_leaf {
+            best = nearer(best, number, triangles, ray);
+        }
+        best.map_or(T::Real::INFINITY, |(t, _)| t)
+    };
+    let mut stack = Stack::default();
+    traverse::<M, T, _>(tree, &ray.line, ray.span, &mut stack, &mut NoProbe, leaf);
+    best
+}
