@@ -8,7 +8,7 @@ use crate::report::axis::{Axis, extent};
 use crate::report::figure::{LEFT, Pen, WIDTH};
 use crate::report::grid::page;
 use crate::report::legend::Key;
-use crate::report::number::grouped;
+use crate::report::number::{grouped, significant};
 use crate::report::palette::{BLUE, GRID as THIN, INK, Look, Marker, SKY, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
@@ -43,7 +43,7 @@ impl Family {
     pub fn of(check: &str) -> Self {
         match check {
             "error" => Self::Stop,
-            test if test.starts_with("p-") => Self::Test,
+            test if test.contains("p-") => Self::Test,
             _ => Self::Interval,
         }
     }
@@ -85,7 +85,7 @@ pub fn figure(run: &SpeedVsError, summary: &Summary) -> Option<Figure> {
     let runs = distinct_runs(&run.coverage);
     let caption = format!(
         "Share of the independent runs that count ({runs} of a check, on {}). Band: where that share lies if the check is right, as \
-         the run's expectations have it; triangle: the level that is wanted. Number of lines of a run behind the sampler. Seed {}.",
+         the run's expectations have it; triangle: the level that is wanted. Behind a check its level (of the stopping rule: the error asked for), the sampler and the lines of a run. Checks of uniform p-values are one test each of all runs. Seed {}.",
         scenes.join(", "),
         summary.seed
     );
@@ -140,7 +140,12 @@ fn distinct_runs(rows: &[CoverageRecord]) -> String {
 /// What names a row.
 fn name(row: &CoverageRecord) -> String {
     let check = row.check.strip_prefix("p-").unwrap_or(&row.check);
-    let text = format!("{check}, {}, {}", row.sampler, grouped(row.lines));
+    let level = significant(100.0 * row.nominal, 1);
+    let text = format!(
+        "{check} at {level} %, {}, {}",
+        row.sampler,
+        grouped(row.lines)
+    );
     fit(&text, MEDIUM, WIDEST)
 }
 

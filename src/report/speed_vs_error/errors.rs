@@ -163,6 +163,17 @@ fn caption(
     )
 }
 
+/// The range, or out to the next powers of ten where fewer than two lie in it: labels of other numbers as small as seconds are
+/// too wide for a panel.
+fn whole_decades(low: f64, high: f64) -> (f64, f64) {
+    let (first, last) = (low.log10().ceil(), high.log10().floor());
+    if last > first {
+        return (low, high);
+    }
+    let ends = (low.log10().floor(), high.log10().ceil());
+    (10f64.powf(ends.0), 10f64.powf(ends.1))
+}
+
 /// What a panel is drawn from.
 struct Curves<'r> {
     run: &'r SpeedVsError,
@@ -194,13 +205,14 @@ impl Curves<'_> {
             (true, true) => "CPU seconds of a replicate",
             (true, false) => "lines of a replicate",
         };
-        let x = Axis::log(label, left / 1.3, 1.3 * right, 5);
+        let (left, right) = whole_decades(left / 1.3, 1.3 * right);
+        let x = Axis::log(label, left, right, 5);
         let y = Axis::log("relative RMSE", low / 1.3, 1.3 * high, 5);
         let mut panel = Panel::new(pen, frame, x, y);
         let heading = format!("{} of {}, {}", part.quantity.1, part.rays, part.scene);
         panel.heading(&fit(&heading, MEDIUM + 0.6, 214.0), frame.left - 2.0, 4.0);
         if let Some(floor) = part.floor() {
-            panel.dashes(&[(left / 1.3, floor), (1.3 * right, floor)], MUTED, 0.8);
+            panel.dashes(&[(left, floor), (right, floor)], MUTED, 0.8);
         }
         for (i, sampler) in self.samplers.iter().enumerate() {
             let look = Look::of(i);

@@ -156,7 +156,7 @@ fn figure(
     let (title, own) = if timed {
         (
             TIME,
-            "nanoseconds of a node's visit, those of a random line over the nodes it meets; scenes not moved",
+            "nanoseconds of a node's visit by random lines that nothing stops; scenes not moved",
         )
     } else {
         (

@@ -140,15 +140,15 @@ fn precision(run: &SpeedVsError) -> Table {
     };
     let kernels = distinct(run.precision.iter().map(|row| row.kernel.as_str()));
     Table {
-        caption: "Kernels: wrong visits and hits per 10⁹, ties included, by random lines and by lines aimed at edges and corners; \
+        caption: "Kernels: wrong visits and hits per 10⁹, ties included, of random lines, and beside them of lines aimed at edges and corners; \
                   offsets from which on they are warned of and refused."
             .to_owned(),
         columns: vec![
             Column::left("kernel", "kernel"),
             Column::right("ns a visit", "visit_ns"),
-            Column::right("visits, random", "visits_random"),
+            Column::right("visits", "visits_random"),
             Column::right("aimed", "visits_aimed"),
-            Column::right("hits, random", "hits_random"),
+            Column::right("hits", "hits_random"),
             Column::right("aimed", "hits_aimed"),
             Column::right("warned from", "warned_from"),
             Column::right("refused from", "refused_from"),

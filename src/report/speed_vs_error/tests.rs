@@ -51,11 +51,19 @@ fn seconds_are_those_of_the_latest_run() {
 }
 
 #[test]
-fn a_visit_has_its_own_time() {
+fn kernels_are_timed_by_visit_and_by_ray() {
     let run = parts();
-    let aimed = run.precision.iter().find(|row| row.family == "aimed");
-    let ns = run.visit_ns(aimed.unwrap()).unwrap();
-    assert!((ns - 40.0).abs() < 1e-9, "{ns}");
+    let table = tables::times_precision(&run).unwrap();
+    assert_eq!(table.rows.len(), 2 * 5 * 3);
+    let f32s = &table.rows[1];
+    let number = |cell: &Cell| match cell {
+        Cell::Value(value, _) => *value,
+        other => panic!("{other:?}"),
+    };
+    let own: Vec<f64> = f32s[3..].iter().map(number).collect();
+    for (found, wanted) in own.iter().zip([38.0, 38.0 / 40.0, 38.0, 38.0 / 40.0]) {
+        assert!((found - wanted).abs() < 1e-9, "{own:?}");
+    }
 }
 
 #[test]
@@ -157,8 +165,7 @@ fn strange_rows_stay_on_the_page() {
     odd.coverage[0].check = "a check of a long name ".repeat(9);
     odd.coverage[1].runs = 0;
     let figures = odd.figures(&summary());
-    // Without visits there is no time of one.
-    assert_eq!(figures.len(), 4);
+    assert_eq!(figures.len(), 5);
     figures
         .iter()
         .for_each(|(_, figure)| assert_on_page(figure));

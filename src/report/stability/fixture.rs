@@ -112,6 +112,7 @@ pub fn parts() -> Stability {
                         missed: 0,
                         ties: if exact { 0 } else { 1000 },
                         tied_wrong: if exact { 0 } else { 400 },
+                        tied_missed: if kernel == "f32" && !exact { 150 } else { 0 },
                     };
                     run.random.extend(["sah", "sah-cyclic"].map(random));
                 }

@@ -23,7 +23,7 @@ const COLUMN: f64 = 13.0;
 const LONE: f64 = 46.0;
 /// Between two kernels.
 const GAP: f64 = 6.0;
-const WIDEST_NAME: f64 = 122.0;
+const WIDEST_NAME: f64 = 140.0;
 /// Least room in which what a case stresses is told beside it.
 const ROOM: f64 = 120.0;
 

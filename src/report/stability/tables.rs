@@ -97,6 +97,8 @@ pub struct Judged {
     pub ties: u64,
     /// Of them, judged wrongly.
     pub tied_wrong: u64,
+    /// Of those, hits taken for missed.
+    pub tied_missed: u64,
 }
 
 impl Judged {
@@ -109,6 +111,7 @@ impl Judged {
             missed: sum.missed + row.missed,
             ties: sum.ties + row.ties,
             tied_wrong: sum.tied_wrong + row.tied_wrong,
+            tied_missed: sum.tied_missed + row.tied_missed,
         };
         rows.into_iter().fold(Self::default(), add)
     }
@@ -130,8 +133,9 @@ impl Judged {
             missed,
             ties,
             tied_wrong,
+            tied_missed,
         } = *self;
-        let counts = [cases, hits, wrong, missed, ties, tied_wrong].map(Cell::Count);
+        let counts = [cases, hits, wrong, missed, ties, tied_wrong, tied_missed].map(Cell::Count);
         let bound = known(self.bound_per_1e9(), ratio);
         counts.into_iter().chain([bound]).collect()
     }
@@ -145,6 +149,7 @@ impl Judged {
             Column::right("missed", "missed"),
             Column::right("ties", "ties"),
             Column::right("tied, wrong", "tied_wrong"),
+            Column::right("of those missed", "tied_missed"),
             Column::right("at most per 10⁹", "bound_per_1e9"),
         ]
     }

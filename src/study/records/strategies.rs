@@ -44,8 +44,8 @@ pub struct PassTiming {
     pub strategy: String,
     /// Stop rule of the cell.
     pub stop: String,
-    /// `build`, or the kind of the rays traced: `primary`, `shadow`, `secondary`. Of a sampler `SAMPLER ASK LINES`, such as
-    /// `sobol all 4096`: drawing, traversing and counting a set of so many lines.
+    /// `build`, or the kind of the rays traced: `primary`, `shadow`, `secondary`. Of a sampler `SAMPLER RAYS LINES`, such as
+    /// `sobol lines:nearest 4096`: drawing, traversing and counting a set of so many lines.
     pub what: String,
     /// Rays in all; 1 for `build`.
     pub units: u64,
