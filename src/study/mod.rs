@@ -99,7 +99,8 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
         }),
         Kind::CostVsWork(asked) => sets(&asked.rays),
         Kind::Assumptions(asked) => sets(&asked.rays),
-        Kind::SplitCost(_) | Kind::SpeedVsError(_) | Kind::Stability(_) => Ok(()),
+        Kind::SpeedVsError(asked) => asked.check_scenes(scenes),
+        Kind::SplitCost(_) | Kind::Stability(_) => Ok(()),
         Kind::Strategies(_) | Kind::Termination(_) => {
             match scenes.iter().find(|scene| scene.look.is_none()) {
                 Some(scene) => Err(format!(

@@ -29,7 +29,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 10] = [
+const EXPERIMENTS: [(&str, &str); 14] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -45,6 +45,14 @@ const EXPERIMENTS: [(&str, &str); 10] = [
     (
         "validate-assumptions",
         include_str!("../../../experiments/validate-assumptions.toml"),
+    ),
+    (
+        "validate-speed",
+        include_str!("../../../experiments/validate-speed.toml"),
+    ),
+    (
+        "validate-stability",
+        include_str!("../../../experiments/validate-stability.toml"),
     ),
     ("figure3", include_str!("../../../experiments/figure3.toml")),
     (
@@ -64,10 +72,18 @@ const EXPERIMENTS: [(&str, &str); 10] = [
         "assumptions",
         include_str!("../../../experiments/assumptions.toml"),
     ),
+    (
+        "speed-vs-error",
+        include_str!("../../../experiments/speed-vs-error.toml"),
+    ),
+    (
+        "stability",
+        include_str!("../../../experiments/stability.toml"),
+    ),
 ];
 
 /// So many of them, the first ones, are the default study.
-const DEFAULT: usize = 4;
+const DEFAULT: usize = 6;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();

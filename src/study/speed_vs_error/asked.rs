@@ -3,6 +3,7 @@
 use serde::Deserialize;
 
 use crate::kd::{StopRule, Strategy};
+use crate::scene::Scene;
 use crate::study::kernel::Kernel;
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
 
@@ -281,6 +282,25 @@ impl SpeedVsError {
         ];
         let one = self.coverage.as_ref().map(|part| &part.scene);
         lists.into_iter().flatten().flatten().chain(one)
+    }
+
+    /// Whether the scenes have what the parts need: in f32 only triangles have a test.
+    pub fn check_scenes(&self, scenes: &[Scene]) -> Result<(), String> {
+        let Some(part) = &self.precision else {
+            return Ok(());
+        };
+        let own = scenes.iter().filter(|s| part.scenes.contains(&s.name));
+        for scene in own {
+            let others = scene.objects.len() - scene.objects.triangles.len();
+            if others > 0 {
+                return Err(format!(
+                    "{}: {others} of its objects are no triangles, but [precision] takes scenes of triangles alone, as only these \
+                     have a test in f32",
+                    scene.name
+                ));
+            }
+        }
+        Ok(())
     }
 
     /// Give a scene its full name, wherever a part names it.

@@ -29,8 +29,11 @@ const LEVEL: f64 = 0.95;
 const FEWEST: f64 = 25.0;
 
 /// Lines that are judged and timed where the tree is refused: it has collapsed, nearly every comparison is a tie, and lines visit it
-/// in large part. Its slope takes all lines.
+/// in large part.
 const OF_REFUSED: usize = 1 << 8;
+
+/// Visits of such a tree that its slope takes, if fewer than of all lines.
+const MOST_VISITS: f64 = (1u64 << 28) as f64;
 
 /// Units of progress of a scene: lines judged.
 pub fn units(asked: &Precision) -> u64 {
@@ -172,7 +175,15 @@ impl<'a> Place<'a> {
         };
         let score: Vec<f64> = p.iter().map(add).collect();
         let refused = kernel != Kernel::F64 && resolution(&self.tree.world) < REFUSE_BELOW;
-        let enough = if refused { OF_REFUSED } else { lines.len() };
+        let (lines, enough) = if refused {
+            let few = &lines[..OF_REFUSED.min(lines.len())];
+            let visits: u64 = judge::<M, T>(subject, few, 0, &score).hits.iter().sum();
+            let affordable = MOST_VISITS * few.len() as f64 / visits.max(1) as f64;
+            let most = (affordable as usize).clamp(few.len(), lines.len());
+            (&lines[..most], few.len())
+        } else {
+            (lines, lines.len())
+        };
         let aimed = subject.aimed(lines, self.lines.seed);
         for (family, lines) in [("random", lines), ("aimed", &aimed)] {
             let judged = judge::<M, T>(subject, lines, enough, &score);

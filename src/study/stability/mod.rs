@@ -61,8 +61,10 @@ pub(super) fn run(
         .map(|piece| store.finished(&piece.id))
         .collect();
     let announce = |left: &[&Piece<'_>]| {
-        let what: Vec<String> = left.iter().map(|piece| piece.to_string()).collect();
-        watcher.announce(&format!("judging {}", what.join("; ")));
+        watcher.announce(&format!(
+            "judging {} groups of hard cases and trees of random lines",
+            left.len()
+        ));
     };
     let measure = |piece: &Piece<'_>| {
         watcher.begin(&piece.to_string());
