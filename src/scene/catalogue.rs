@@ -95,13 +95,18 @@ pub(super) fn unknown(spec: &str, wrong: String) -> SceneError {
     let names: Vec<String> = recipes().map(Recipe::spec).collect();
     let near = nearest_name(spec.trim_end_matches(':'), names.iter().map(String::as_str));
     let hint = near.map_or(String::new(), |name| format!("did you mean {name}? "));
+    let usual: Vec<&str> = names
+        .iter()
+        .map(String::as_str)
+        .filter(|name| !name.starts_with("hard:"))
+        .collect();
     let kinds = EXTENSIONS.map(|e| format!(".{e}")).join(", ");
     SceneError::Unknown {
         spec: spec.into(),
         wrong,
         right: format!(
-            "{hint}scenes are {}, and files ending in {kinds}",
-            names.join(", ")
+            "{hint}scenes are {}, hard:NAME (`validate list scenes` names them), and files ending in {kinds}",
+            usual.join(", ")
         ),
     }
 }

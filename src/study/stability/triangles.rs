@@ -37,7 +37,7 @@ const TINY: f64 = f64::from_bits((1023 - 300) << 52);
 /// 2^-60.
 const SLIVER: f64 = f64::from_bits((1023 - 60) << 52);
 
-const CASES: [TriangleCase; 31] = [
+const CASES: [TriangleCase; 32] = [
     TriangleCase {
         name: "triangle-inside",
         stresses: "through the inside",
@@ -269,6 +269,15 @@ const CASES: [TriangleCase; 31] = [
         origin: [0.0; 3],
         direction: [1.0, 1.0, 1.0],
         corners: [[0.0, 0.0, 1.0], [SLIVER, 0.0, 2.0], [0.0, SLIVER, 3.0]],
+        hit: false,
+        promised: true,
+    },
+    TriangleCase {
+        name: "triangle-sliver-aside-thirds",
+        stresses: "the same with a direction that rounds: whatever the shear leaves of the sliver is noise",
+        origin: [0.0; 3],
+        direction: [1.0, 0.7, 0.3],
+        corners: [[0.1, 0.1, 1.0], [0.2 + SLIVER, 0.2, 2.0], [0.3, 0.3, 3.0]],
         hit: false,
         promised: true,
     },

@@ -313,7 +313,7 @@ pub(super) fn cases() -> Vec<Case> {
             told(
                 "a.blend",
                 b"",
-                "a.blend: cannot read .blend files; scenes are simple:uniform, simple:soup, simple:clustered, simple:overlapping, simple:mixture, simple:greedy, simple:flat, spd:balls, spd:gears, spd:jacks, spd:lattice, spd:mount, spd:rings, spd:sombrero, spd:teapot, spd:tetra, spd:tree, and files ending in .obj, .ply, .stl, .off, .nff",
+                "a.blend: cannot read .blend files; scenes are simple:uniform, simple:soup, simple:clustered, simple:overlapping, simple:mixture, simple:greedy, simple:flat, spd:balls, spd:gears, spd:jacks, spd:lattice, spd:mount, spd:rings, spd:sombrero, spd:teapot, spd:tetra, spd:tree, hard:NAME (`validate list scenes` names them), and files ending in .obj, .ply, .stl, .off, .nff",
             )
         }),
     ]
