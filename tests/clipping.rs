@@ -42,6 +42,14 @@ fn every_clipped_tree_passes_the_audit() {
     }
 }
 
+/// Cutting a polygon with reflex corners leaves seams without area along the cuts: an object need not be where only they are.
+#[test]
+fn seams_of_reflex_polygons_are_no_parts() {
+    let scene = Scene::load("spd:gears:4").unwrap();
+    let tree = tree(&scene, Strategy::Sah, "objects:2:16", true);
+    audit_clipped(&tree, &scene.objects, &scene.bounds).unwrap();
+}
+
 /// Not one reference is superfluous or missing beyond the slack: a leaf holds what clipping to it finds.
 #[test]
 fn leaves_hold_what_has_a_part_in_them() {

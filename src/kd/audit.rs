@@ -1,6 +1,6 @@
 //! Proof of a tree's invariants from the tree and the objects' boxes, independent of how it was built.
 
-use crate::geom::{Aabb, Clipper, Objects, clip_slack};
+use crate::geom::{Aabb, Clipper, Object, Objects, clip_slack};
 
 use super::{NodeKind, Tree};
 
@@ -44,6 +44,9 @@ struct Audit<'a> {
     objects: Option<&'a Objects>,
     faults: Vec<String>,
 }
+
+/// Rounding of the areas of seams that cancel, as a share of their polygon's.
+const SEAMS: f64 = 1e-12;
 
 /// Faults told before the audit gives up looking for more.
 const ENOUGH: usize = 10;
@@ -220,9 +223,21 @@ impl Audit<'_> {
             return true;
         };
         let slack = 0.5 * clip_slack(&self.tree.world);
-        objects
-            .clipped_bounds(object, &self.tree.boxes[leaf], slack, clipper)
-            .is_some()
+        let leaf = &self.tree.boxes[leaf];
+        if objects
+            .clipped_bounds(object, leaf, slack, clipper)
+            .is_none()
+        {
+            return false;
+        }
+        let Object::Polygon(polygon) = objects.get(object) else {
+            return true;
+        };
+        // What is left of a polygon with reflex corners may be nothing but the seams between pieces that were cut away, which
+        // run along the cuts and have no area.
+        let bounds = &self.bounds[object as usize];
+        let wide = Aabb::new(leaf.lo - slack, leaf.hi + slack);
+        objects.area_within(object, bounds, &wide, clipper) > SEAMS * polygon.area()
     }
 
     /// What a leaf holds; an empty one may begin anywhere.
