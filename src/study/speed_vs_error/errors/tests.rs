@@ -97,7 +97,7 @@ fn a_power_law_has_its_exponent_and_its_lines() {
     let scene = Scene::load("simple:uniform:400").expect("a scene");
     let piece = piece(&scene);
     let level = |log2: u32| {
-        let error = 2.0 * f64::from(1 << log2).powf(-0.75);
+        let error = 2.0 * libm::pow(f64::from(1 << log2), -0.75);
         off_by(1 << log2, &[error, -error].repeat(16))
     };
     let found: Vec<_> = (8..=12).map(level).collect();
