@@ -92,6 +92,16 @@ impl SpeedVsError {
         ];
         let timed = timed.into_iter();
         all.extend(timed.filter_map(|(name, table)| Some((name, table?))));
+        if !self.timings.is_empty() {
+            let summaries = [
+                (!self.errors.is_empty())
+                    .then(|| ("times-samplers-summary", screen::samplers(self))),
+                (!self.precision.is_empty())
+                    .then(|| ("times-precision-summary", screen::precision(self))),
+                screen::searches(self, usize::MAX).map(|table| ("times-planes-summary", table)),
+            ];
+            all.extend(summaries.into_iter().flatten());
+        }
         all
     }
 

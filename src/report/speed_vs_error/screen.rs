@@ -19,7 +19,7 @@ pub fn tables(run: &SpeedVsError, width: usize) -> String {
     let own = [
         (!run.errors.is_empty()).then(|| samplers(run)),
         (!run.precision.is_empty()).then(|| precision(run)),
-        searches(run),
+        searches(run, SEARCHES),
     ];
     let texts = own.iter().flatten().map(|table| table.to_text(width));
     let mut parts: Vec<String> = texts.collect();
@@ -33,7 +33,7 @@ pub fn tables(run: &SpeedVsError, width: usize) -> String {
 const WANTED: f64 = 1e-3;
 
 /// Samplers at their most lines, over all scenes.
-fn samplers(run: &SpeedVsError) -> Table {
+pub fn samplers(run: &SpeedVsError) -> Table {
     let most = at_most(run);
     let mean = |rays: &str, sampler: &str, of: &dyn Fn(&ErrorRecord) -> Option<f64>| {
         let own = most
@@ -100,7 +100,7 @@ fn short(value: f64) -> Cell {
 }
 
 /// Kernels, all scenes together.
-fn precision(run: &SpeedVsError) -> Table {
+pub fn precision(run: &SpeedVsError) -> Table {
     let least = run.precision.iter().map(|row| row.offset).reduce(f64::min);
     let row = |kernel: &str| {
         let own = || run.precision.iter().filter(|row| row.kernel == kernel);
@@ -121,15 +121,22 @@ fn precision(run: &SpeedVsError) -> Table {
             [wrong, r.visits]
         };
         let hits = |r: &PrecisionRecord| [r.wrong_hits + r.missed_hits + r.tied_hits, r.tests];
-        let random = near().filter(|row| row.family == "random");
-        let times: Vec<f64> = random.filter_map(|row| run.visit_ns(row)).collect();
+        let beyond =
+            |r: &PrecisionRecord| r.wrong_visits + r.missed_visits + r.wrong_hits + r.missed_hits;
+        let ns = |unit: &str| {
+            let random = near().filter(|row| row.family == "random");
+            let times: Vec<f64> = random.filter_map(|row| run.kernel_ns(row, unit)).collect();
+            known(geometric(&times), ratio)
+        };
         let from = |verdict: &str| {
             let own = own().filter(|row| row.verdict == verdict);
             known(own.map(|row| row.offset).reduce(f64::min), short)
         };
         vec![
             text(kernel),
-            known(geometric(&times), ratio),
+            ns("visit"),
+            ns("ray"),
+            Cell::Count(near().map(beyond).sum()),
             rate("random", visits),
             rate("aimed", visits),
             rate("random", hits),
@@ -140,12 +147,14 @@ fn precision(run: &SpeedVsError) -> Table {
     };
     let kernels = distinct(run.precision.iter().map(|row| row.kernel.as_str()));
     Table {
-        caption: "Kernels: wrong visits and hits per 10⁹, ties included, of random lines, and beside them of lines aimed at edges and corners; \
-                  offsets from which on they are warned of and refused."
+        caption: "Kernels: how many visits and hits are wrong by more than 8 ulp; per 10⁹, ties included, visits and hits of random lines, \
+                  beside them of lines aimed at edges and corners; offsets from which on they are warned of and refused."
             .to_owned(),
         columns: vec![
             Column::left("kernel", "kernel"),
             Column::right("ns a visit", "visit_ns"),
+            Column::right("ns a ray", "ray_ns"),
+            Column::right("wrong", "wrong"),
             Column::right("visits", "visits_random"),
             Column::right("aimed", "visits_aimed"),
             Column::right("hits", "hits_random"),
@@ -158,8 +167,8 @@ fn precision(run: &SpeedVsError) -> Table {
     }
 }
 
-/// Plane searches that no other dominates in the mean over the scenes: at most the few with the cheapest trees.
-fn searches(run: &SpeedVsError) -> Option<Table> {
+/// Plane searches that no other dominates in the mean over the scenes: at most so many, those with the cheapest trees.
+pub fn searches(run: &SpeedVsError, most: usize) -> Option<Table> {
     let scenes = distinct(run.planes.iter().map(|row| row.scene.as_str()));
     let exact = |scene: &str| {
         let all = Timed::all(run, scene);
@@ -196,8 +205,8 @@ fn searches(run: &SpeedVsError) -> Option<Table> {
     };
     let mut kept: Vec<_> = means.iter().filter(|one| !dominated(one)).collect();
     kept.sort_by(|a, b| a.2.total_cmp(&b.2));
-    let left_out = kept.len().saturating_sub(SEARCHES);
-    kept.truncate(SEARCHES);
+    let left_out = kept.len().saturating_sub(most);
+    kept.truncate(most);
     let rows = kept.into_iter().map(|(strategy, clipped, dearer, slower)| {
         vec![
             text(strategy),

@@ -55,6 +55,7 @@ impl Stability {
         }
         if !self.random.is_empty() {
             all.push(("random", tables::random(self)));
+            all.push(("random-scenes", tables::random_by_scene(self)));
             // Without a tie judged wrongly, which is a result, the table is empty.
             all.push(("ties", tables::ties(self)));
         }

@@ -183,39 +183,43 @@ const RANDOM: &str = "Lines against the boxes of trees' nodes and against triang
                       at edges and corners. At most: one-sided 95 % upper bound of wrong and missed together, per 10⁹ pairs; 3.0/n where \
                       none of n is.";
 
-/// Random cases: all scenes together, then each scene, its strategies' trees together.
+/// Random cases, all scenes and strategies together.
 pub fn random(run: &Stability) -> Table {
-    let names = ["all"]
+    let row = |(of, total): ([&str; 3], Judged)| of.map(text).into_iter().chain(total.cells());
+    random_table(&[], random_totals(run).into_iter().map(row))
+}
+
+/// Random cases of each scene, its strategies' trees together.
+pub fn random_by_scene(run: &Stability) -> Table {
+    let kinds = each_once(run.random.iter().map(kind));
+    let scenes = distinct(run.random.iter().map(|row| row.scene.as_str()));
+    let pairs = scenes
         .into_iter()
-        .chain(distinct(run.random.iter().map(|row| row.scene.as_str())));
-    let mut rows = Vec::new();
-    for scene in names {
-        for (of, total) in random_totals(run) {
-            let own = run.random.iter();
-            let own = own.filter(|row| kind(row) == of && row.scene == scene);
-            let judged = if scene == "all" {
-                total
-            } else {
-                Judged::sum(own)
-            };
-            if judged.cases > 0 {
-                let names = [scene].into_iter().chain(of).map(text);
-                rows.push(names.chain(judged.cells()).collect());
-            }
-        }
-    }
-    let mut columns = vec![
-        Column::left("scene", "scene"),
+        .flat_map(|scene| kinds.iter().map(move |of| (scene, *of)));
+    let rows = pairs.filter_map(|(scene, of)| {
+        let own = run.random.iter();
+        let own = own.filter(|row| kind(row) == of && row.scene == scene);
+        let judged = Judged::sum(own);
+        let names = [scene].into_iter().chain(of).map(text);
+        (judged.cases > 0).then(|| names.chain(judged.cells()))
+    });
+    random_table(&[Column::left("scene", "scene")], rows)
+}
+
+fn random_table(first: &[Column], rows: impl Iterator<Item: Iterator<Item = Cell>>) -> Table {
+    let mut columns = first.to_vec();
+    columns.extend([
         Column::left("kernel", "kernel"),
         Column::left("against", "against"),
         Column::left("lines", "family"),
-    ];
+    ]);
+    let keys = columns.len();
     columns.extend(Judged::columns());
     Table {
         caption: RANDOM.to_owned(),
         columns,
-        keys: 4,
-        rows,
+        keys,
+        rows: rows.map(Iterator::collect).collect(),
     }
 }
 
