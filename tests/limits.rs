@@ -21,12 +21,12 @@ seed = 7
 scenes = ["simple:uniform:60", "simple:soup:80"]
 strategy = "sah"
 stop = "objects:2:12"
-samplers = { scenes = ["simple:uniform:60"], methods = ["random", "stratified", "sobol", "conditional"], from = 64, to = 512, replicates = 32, reference = 32_768, wanted = [0.1, 0.001], rounds = 2 }
+samplers = { scenes = ["simple:uniform:60"], methods = ["random", "stratified", "sobol", "conditional"], from = 64, to = 512, replicates = 32, reference = 65_536, wanted = [0.1, 0.001], rounds = 2 }
 precision = { scenes = ["simple:soup:80"], kernels = ["f64", "f32", "f32-padded"], offsets = [0.0, 1e3, 1e7], lines = 512, rounds = 2 }
 planes = { scenes = ["simple:soup:80"], strategies = ["sah", "sah-samples:4", "sah-bins:16"], clipped = [false, true], builds = 2 }
 coverage = { scene = "simple:uniform:60", seeds = 40, lines = 1024, replicates = 20, stops = 20, error = 0.1 }
 cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
-expect = { judged = ["simple:uniform:60"], sobol_nodes = 1.0, sobol_gain = 1.0, sobol_exponent = 0.4, planes = { strategy = "sah-bins:16", above = 1.0 } }
+expect = { sobol = { scenes = ["simple:uniform:60"], nodes = 1.0, gain = 1.0, exponent = 0.4 }, planes = { strategy = "sah-bins:16", above = 1.0 } }
 "#;
 
 const STABILITY: &str = r#"kind = "stability"
@@ -256,12 +256,12 @@ fn wrong_input_is_told_with_its_place() {
         fails(&SPEED.replacen(from, to, 1), &[], told);
     };
     speed("\"sobol\"", "\"sobel\"", "e.toml:7:");
-    speed("to = 512", "to = 500", "must be powers of two");
-    speed("replicates = 32,", "replicates = 31,", "at least 32");
+    speed("to = 512", "to = 500", "must be a power of two");
+    speed("replicates = 32,", "replicates = 31,", "must be 32 to");
     speed(
-        "reference = 32_768",
+        "reference = 65_536",
         "reference = 4_096",
-        "at least 32 times samplers.to",
+        "from 128 times samplers.to",
     );
     speed(
         "methods = [\"random\", ",
@@ -289,7 +289,11 @@ fn wrong_input_is_told_with_its_place() {
         "sah-bins:17\", above",
         "must be among planes.strategies",
     );
-    speed("error = 0.1", "error = 1.5", "between 0 and 1");
+    speed(
+        "error = 0.1",
+        "error = 1.5",
+        "must be at least 1e-6 and below 1",
+    );
     speed(
         "rounds = 2 }\nplanes",
         "rounds = 3 }\nplanes",

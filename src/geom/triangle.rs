@@ -49,7 +49,9 @@ impl<V: Vector> Triangle<V> {
         if determinant == zero {
             return None;
         }
-        let t = (u * a[2] + v * b[2] + w * c[2]) / determinant;
+        // Weights first: products of three lengths would leave the range of numbers long before products of two.
+        let [u, v, w] = [u, v, w].map(|weight| weight / determinant);
+        let t = u * a[2] + v * b[2] + w * c[2];
         let own = ray.within(&self.bounds())?;
         let t = t.clamp(own.t0, own.t1);
         ray.covers(t).then_some(t)
@@ -86,6 +88,29 @@ mod tests {
             [DVec3::ZERO, DVec3::X, 2.0 * DVec3::X],
         ] {
             assert_eq!(Triangle(t).intersect(&ray(-d, d)), None);
+        }
+    }
+
+    /// A hit on a slanted triangle scales with it, to the ends of what scenes may have.
+    #[test]
+    fn hits_scale_by_powers_of_two() {
+        let corners = [
+            DVec3::ZERO,
+            DVec3::new(1.0, 0.0, 1.0),
+            DVec3::new(0.0, 1.0, 1.0),
+        ];
+        for (origin, t) in [
+            (DVec3::new(0.2, 0.1, 5.0), 4.7),
+            (DVec3::new(0.1, 0.3, 0.6), 0.2),
+            (DVec3::new(0.4, 0.3, 2.0), 1.3),
+        ] {
+            for exponent in [-450, -365, -100, 0, 100, 345, 450] {
+                let s = libm::ldexp(1.0, exponent);
+                let triangle = Triangle(corners.map(|p| s * p));
+                let hit = triangle.intersect(&ray(s * origin, -DVec3::Z));
+                let hit = hit.expect("a hit") / s;
+                assert!((hit / t - 1.0).abs() < 1e-14, "{hit} at 2^{exponent}");
+            }
         }
     }
 

@@ -4,12 +4,16 @@
 //! (Stein's two stages, the first of them sequential). Then so many lines are counted afresh. Their number is settled before
 //! the first of them is drawn, so they are a sample of fixed size: every interval and test of a run holds as it stands, which
 //! it would not around lines that had been stopped by what they showed.
+//!
+//! A trial knows nothing of what its lines are too few to meet: a dense cluster that one line in 10^5 hits may make most of
+//! the variance. But areas tell how often a line hits each node, and what it is expected to do there: see [`Rare`].
 
 use std::ops::Range;
 
 use rayon::prelude::*;
 
-use crate::kd::Stack;
+use crate::cost::CostModel;
+use crate::kd::{Node, NodeKind, Prediction, Stack, Tree};
 use crate::stats::{ScoreMoments, normal_quantile};
 
 use super::records::{CellRecord, Verdict, WorkRecord};
@@ -39,12 +43,81 @@ const SHARE: f64 = 0.25;
 /// Lines that one thread takes at a time; sums are merged in the order of the lines.
 const CHUNK: u64 = 1024;
 
+/// The variance of C that events too rare for a trial add to it, from areas alone.
+///
+/// A subtree K that a line hits with probability p and in which it is then expected to spend t adds at least p t^2; where what
+/// is spent there falls to parts of it that are rarer still, the sum over these is more.
+pub struct Rare {
+    /// Of every node p, what it adds, and the first of its two children.
+    nodes: Vec<(f64, f64, Option<usize>)>,
+}
+
+/// A subtree that fewer trial lines than this are expected to hit is rare.
+const FEW: f64 = 30.0;
+
+/// What a line spends in a rare subtree varies: its second moment is taken as so many times the square of its mean.
+const VARIES: f64 = 2.0;
+
+impl Rare {
+    /// Of the lines of a tree.
+    pub fn of(tree: &Tree, prediction: &Prediction, cost: CostModel) -> Self {
+        let own = |node: &Node| match node.kind() {
+            NodeKind::Inner { .. } => cost.cost(1.0, 0.0, 0.0),
+            NodeKind::Leaf { count, .. } => cost.cost(0.0, 1.0, count.into()),
+        };
+        let mut below: Vec<f64> = tree
+            .nodes
+            .iter()
+            .zip(&prediction.p)
+            .map(|(node, p)| p * own(node))
+            .collect();
+        let mut nodes = vec![(0.0, 0.0, None); tree.nodes.len()];
+        // Children come after their parent in the arena: from the end, every sum is complete when it is passed up.
+        for i in (0..tree.nodes.len()).rev() {
+            let left = match tree.nodes[i].kind() {
+                NodeKind::Inner { left, .. } => Some(left as usize),
+                NodeKind::Leaf { .. } => None,
+            };
+            if let Some(left) = left {
+                below[i] += below[left] + below[left + 1];
+            }
+            let p = prediction.p[i];
+            let whole = if p > 0.0 {
+                below[i] * below[i] / p
+            } else {
+                0.0
+            };
+            let parts = left.map_or(0.0, |left| nodes[left].1 + nodes[left + 1].1);
+            nodes[i] = (p, whole.max(parts), left);
+        }
+        Self { nodes }
+    }
+
+    /// The variance, for a trial of so many lines: of the largest subtrees that are rare for it.
+    fn variance(&self, lines: f64) -> f64 {
+        let mut sum = 0.0;
+        let mut open = vec![0];
+        while let Some(i) = open.pop() {
+            let Some(&(p, adds, left)) = self.nodes.get(i) else {
+                break;
+            };
+            if p * lines < FEW {
+                sum += VARIES * adds;
+            } else if let Some(left) = left {
+                open.extend([left, left + 1]);
+            }
+        }
+        sum
+    }
+}
+
 /// Lines that bring the relative error of C's mean to `error` or below, with probability [`CONFIDENCE`]; not fewer than
 /// `least` and not more than `most`. `cost` gives what line i costs, or `None` where it misses the root's box: of such lines
-/// no cost is predicted, and more are drawn instead.
+/// no cost is predicted, and more are drawn instead. `rare` is of isotropic lines; of other rays it is the best guess there is.
 pub fn needed(
     error: f64,
     [least, most]: [u64; 2],
+    rare: &Rare,
     cost: impl Fn(u64, &mut Stack) -> Option<f64> + Sync,
 ) -> u64 {
     let mut trial = ScoreMoments::default();
@@ -53,7 +126,7 @@ pub fn needed(
         let next = (2 * looked_at).max(FIRST);
         trial.merge(&moments(TRIAL + looked_at..TRIAL + next, &cost));
         looked_at = next;
-        let asked = asked(error, &trial);
+        let asked = asked(error, rare.variance(trial.n() as f64), &trial);
         // Of every line that hits the root's box so many are drawn.
         let drawn = looked_at as f64 / trial.n().max(1) as f64;
         let lines = asked.lines * drawn;
@@ -93,8 +166,8 @@ struct Asked {
     known: bool,
 }
 
-/// N = (z s / (E C))^2, with s taken larger and C smaller than the trial shows them.
-fn asked(error: f64, trial: &ScoreMoments<2>) -> Asked {
+/// N = (z s / (E C))^2, with s taken larger and C smaller than the trial shows them, and what is `rare` for it added to s^2.
+fn asked(error: f64, rare: f64, trial: &ScoreMoments<2>) -> Asked {
     let (Some([mean, _]), Some([[variance, with_square], [_, of_square]])) =
         (trial.mean(), trial.covariance())
     else {
@@ -104,7 +177,7 @@ fn asked(error: f64, trial: &ScoreMoments<2>) -> Asked {
             known: false,
         };
     };
-    if variance <= 0.0 {
+    if variance + rare <= 0.0 {
         return Asked {
             lines: 0.0,
             known: true,
@@ -118,13 +191,13 @@ fn asked(error: f64, trial: &ScoreMoments<2>) -> Asked {
     let least_mean = mean - off;
     let z = normal_quantile(CONFIDENCE);
     let lines = if least_mean > 0.0 {
-        z * z * (variance + uncertain) / (error * error * least_mean * least_mean)
+        z * z * (variance + uncertain + rare) / (error * error * least_mean * least_mean)
     } else {
         f64::INFINITY
     };
     Asked {
         lines,
-        known: uncertain <= KNOWN * variance && off <= 0.25 * KNOWN * mean,
+        known: uncertain + rare <= KNOWN * variance && off <= 0.25 * KNOWN * mean,
     }
 }
 
@@ -183,6 +256,14 @@ pub fn of_records(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::{Objects, Span, Triangle};
+    use crate::kd::traverse::traverse_line;
+    use crate::kd::{Rules, StopRule, Strategy, Work, build_objects, predict};
+    use crate::rays::SurfaceLines;
+    use crate::scene::Scene;
+    use glam::DVec3;
+
+    const NONE: Rare = Rare { nodes: Vec::new() };
 
     /// Costs of known mean 1 and variance.
     fn two_valued(i: u64, rare: u64) -> Option<f64> {
@@ -198,7 +279,7 @@ mod tests {
         // Mean 1, variance rare - 1.
         for (rare, error) in [(2, 0.01), (2, 0.1), (10, 0.01), (50, 0.02)] {
             let exact = normal_quantile(CONFIDENCE).powi(2) * (rare - 1) as f64 / (error * error);
-            let n = needed(error, [1, 1 << 30], |i, _| two_valued(i, rare)) as f64;
+            let n = needed(error, [1, 1 << 30], &NONE, |i, _| two_valued(i, rare)) as f64;
             let most = if exact < 4096.0 { 2.5 } else { 1.5 };
             assert!(exact < n && n < most * exact, "{n} for {exact}");
         }
@@ -206,8 +287,8 @@ mod tests {
 
     #[test]
     fn lines_that_miss_are_made_up_for() {
-        let all = needed(0.001, [1, 1 << 30], |i, _| two_valued(i, 2)) as f64;
-        let half = needed(0.001, [1, 1 << 30], |i, _| {
+        let all = needed(0.001, [1, 1 << 30], &NONE, |i, _| two_valued(i, 2)) as f64;
+        let half = needed(0.001, [1, 1 << 30], &NONE, |i, _| {
             two_valued(i / 2, 2).filter(|_| i.is_multiple_of(2))
         });
         let ratio = half as f64 / all;
@@ -216,10 +297,13 @@ mod tests {
 
     #[test]
     fn bounds_hold_and_nothing_to_know_takes_what_there_is() {
-        assert_eq!(needed(0.01, [100, 1000], |_, _| Some(7.0)), 100);
-        assert_eq!(needed(0.01, [100, 1000], |_, _| Some(0.0)), 100);
-        assert_eq!(needed(0.01, [100, 1000], |_, _| None), 1000);
-        assert_eq!(needed(1e-6, [100, 1000], |i, _| Some((i % 2) as f64)), 1000);
+        assert_eq!(needed(0.01, [100, 1000], &NONE, |_, _| Some(7.0)), 100);
+        assert_eq!(needed(0.01, [100, 1000], &NONE, |_, _| Some(0.0)), 100);
+        assert_eq!(needed(0.01, [100, 1000], &NONE, |_, _| None), 1000);
+        assert_eq!(
+            needed(1e-6, [100, 1000], &NONE, |i, _| Some((i % 2) as f64)),
+            1000
+        );
     }
 
     #[test]
@@ -227,7 +311,68 @@ mod tests {
         let one = rayon::ThreadPoolBuilder::new().num_threads(1).build();
         let one = one.expect("a pool");
         let cost = |i, _: &mut Stack| two_valued(i, 7).map(|c| c + 0.1);
-        let alone = one.install(|| needed(0.003, [1, 1 << 30], cost));
-        assert_eq!(needed(0.003, [1, 1 << 30], cost), alone);
+        let alone = one.install(|| needed(0.003, [1, 1 << 30], &NONE, cost));
+        assert_eq!(needed(0.003, [1, 1 << 30], &NONE, cost), alone);
+    }
+
+    /// Two large triangles and a tiny dense cluster, which hardly a trial line meets and which makes the variance.
+    #[test]
+    fn what_the_trial_cannot_have_met_is_reckoned_with() {
+        let p = |x: f64, y: f64, z: f64| DVec3::new(x, y, z);
+        let mut triangles = vec![
+            Triangle([p(0.0, 0.0, 0.0), p(1.0, 0.0, 0.1), p(0.0, 1.0, 0.2)]),
+            Triangle([p(1.0, 1.0, 1.0), p(0.0, 1.0, 0.9), p(1.0, 0.0, 0.8)]),
+        ];
+        for i in 0..400 {
+            let at = |k: i32| 0.5 + 0.004 * f64::from(i * k % 97) / 97.0;
+            let corner = p(at(7), at(31), at(57));
+            let near = |x, y, z| corner + 4e-4 * p(x, y, z);
+            triangles.push(Triangle([corner, near(1.0, 0.3, 0.2), near(0.1, 1.0, 0.7)]));
+        }
+        let objects = Objects {
+            triangles,
+            ..Objects::default()
+        };
+        let bounds = objects.bounds();
+        let world = bounds
+            .iter()
+            .fold(crate::geom::Aabb::EMPTY, |w, b| w.union(*b));
+        let rules = Rules {
+            strategy: Strategy::SpatialMedianLongest,
+            stop: StopRule::CostGain { depth: None },
+            cost: CostModel::WALD_HAVRAN,
+            clipped: false,
+        };
+        let tree = build_objects(&objects, &bounds, world, &rules);
+        let prediction = predict(&tree);
+        let truth = rules
+            .cost
+            .cost(prediction.n_k, prediction.n_b, prediction.n_t);
+        let rare = Rare::of(&tree, &prediction, rules.cost);
+        let lines = |seed| SurfaceLines { world, seed };
+        let cost = |seed, i: u64, stack: &mut Stack| {
+            let mut work = Work::default();
+            for line in lines(seed).range(i..i + 1) {
+                traverse_line(&tree, &line, Span::FULL, stack, &mut work);
+            }
+            work.cost(rules.cost)
+        };
+        let mut kept = 0;
+        for seed in 0..40 {
+            let n = needed(0.02, [1024, 1 << 30], &rare, |i, stack| {
+                Some(cost(seed, i, stack))
+            });
+            let mut stack = Stack::default();
+            let sum: f64 = (0..n).map(|i| cost(seed, i, &mut stack)).sum();
+            kept += u32::from((sum / n as f64 / truth - 1.0).abs() <= 0.02);
+        }
+        // At 95 % each, fewer than 34 of 40 come with a chance below 1 %.
+        assert!(kept >= 34, "{kept} of 40");
+        // A usual scene loses nothing by it.
+        let soup = Scene::load("simple:soup:500").expect("a scene");
+        let tree = build_objects(&soup.objects, &soup.bounds, soup.world, &rules);
+        let usual = Rare::of(&tree, &predict(&tree), rules.cost);
+        let c = rules.cost.cost(predict(&tree).n_k, 0.0, predict(&tree).n_t);
+        assert!(usual.variance(16_384.0) < 0.02 * c * c);
     }
 }

@@ -108,6 +108,14 @@ impl Kind {
         }
     }
 
+    /// Whether a wanted error of C can settle its numbers of lines and rays.
+    pub fn counts_to_an_error(&self) -> bool {
+        !matches!(
+            self,
+            Self::SplitCost(_) | Self::SpeedVsError(_) | Self::Stability(_)
+        )
+    }
+
     fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
         match self {
             Self::HitsVsArea(asked) => asked.check(scenes),

@@ -6,14 +6,14 @@ use std::str::FromStr;
 use serde::{Deserialize, Serialize};
 
 use crate::geom::Cast;
-use crate::kd::{Ask, Rules, StopRule, Strategy, Tree, Work};
+use crate::kd::{Ask, Rules, StopRule, Strategy, Tree, Work, predict};
 use crate::rays::{Source, SourceRays};
 use crate::scene::Scene;
 use crate::tracer::{RayKind, trace};
 
 use super::hits::cell::build_tree;
 use super::lines::check_error;
-use super::needed::needed;
+use super::needed::{Rare, needed};
 use super::plan::{Wrong, wrong_unless};
 use crate::cost::CostModel;
 
@@ -187,7 +187,8 @@ impl Number {
         };
         let bounds = [self.rays.min(MOST_RAYS), MOST_RAYS];
         let one = |tree: &Tree| {
-            needed(error, bounds, |i, stack| {
+            let rare = Rare::of(tree, &predict(tree), cost);
+            needed(error, bounds, &rare, |i, stack| {
                 let mut work = Work::default();
                 let ray = source.cast(i).ray();
                 ask.hits(tree, &scene.objects, &ray, stack, &mut work);

@@ -22,6 +22,7 @@ use sahlab::rays::{LineLaw, Source};
 use sahlab::report::{Run, screen, write_plots, write_tables};
 use sahlab::scene::{Scene, catalogue};
 use sahlab::study::plan::{Overrides, PlanError};
+use sahlab::study::speed_vs_error::asked::Method;
 use sahlab::study::{self, Plan, stability};
 use sahlab::tracer::RayKind;
 
@@ -122,7 +123,17 @@ fn execute(cli: &Cli) -> Result<bool> {
         None => {
             let plans = EXPERIMENTS[..DEFAULT].iter().map(|(name, text)| {
                 let path = format!("experiments/{name}.toml");
-                let plan = Plan::parse(text, &path, name, overrides)?;
+                let plan = |overrides| Plan::parse(text, &path, name, overrides);
+                let error = None;
+                let plain = plan(Overrides { error, ..overrides })?;
+                let plan = match overrides.error {
+                    Some(_) if plain.kind.counts_to_an_error() => plan(overrides)?,
+                    Some(_) => {
+                        note(&format!("{path}: --error does not apply to its kind"));
+                        plain
+                    }
+                    None => plain,
+                };
                 Ok::<_, PlanError>((path.into(), plan))
             });
             let plans: Vec<(PathBuf, Plan)> = plans.collect::<Result<_, _>>()?;
@@ -297,10 +308,11 @@ fn list(what: Option<Listed>) -> String {
     section(Listed::Strategies, "strategies", strategies.collect());
     let laws = LineLaw::EXACT.iter().chain(&LineLaw::WRONG);
     let laws = laws.map(|l| (l.name().into(), l.description().into()));
+    let methods = Method::ALL.map(|m| (m.name().into(), m.description().into()));
     section(
         Listed::Samplers,
-        "samplers of lines (wrong ones are negative controls)",
-        laws.collect(),
+        "samplers of lines: laws (wrong ones are negative controls), then the methods of [samplers], all of the exact law",
+        laws.chain(methods).collect(),
     );
     let sources = Source::all().map(|s| (s.name().into(), s.description().into()));
     let kinds = RayKind::ALL.map(|kind| {

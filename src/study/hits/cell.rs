@@ -13,7 +13,7 @@ use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 
 use crate::study::identity::{content, digest, line_seed, whole};
-use crate::study::needed::needed;
+use crate::study::needed::{Rare, needed};
 use crate::study::ray_sets::Rays;
 use crate::study::{LineRule, SCHEMA, Watcher, work};
 
@@ -172,9 +172,14 @@ pub fn compare(
             }
             Some(work.cost(plan.rules.cost))
         };
-        needed(error, plan.lines.bounds(), cost)
+        let rare = Rare::of(tree, prediction, plan.rules.cost);
+        needed(error, plan.lines.bounds(), &rare, cost)
     });
-    let pilot = settled.unwrap_or(plan.lines.at_least()).min(PILOT);
+    // Where an error is wanted, its confirmation is worth a longer pilot.
+    let pilot = match settled {
+        Some(n) => n.min(8 * PILOT),
+        None => plan.lines.at_least().min(PILOT),
+    };
     let scored = score_lines(tree, &scoring, pilot, |range| lines.range(range));
     let spread = Spread::new(tree, prediction, &scoring, &scored);
     let sigma = spread.deviation(FIRST_SCORE + WEIGHTED);

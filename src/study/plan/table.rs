@@ -3,7 +3,7 @@
 use toml::Spanned;
 use toml::de::{DeTable, DeValue};
 
-/// A table with the entries of another in place of its own of the same name, within tables too; the error is the place of what is no table.
+/// A table with the entries of another in place of its own of the same name; the error is the place of what is no table.
 pub(super) fn overlay<'i>(
     table: &Spanned<DeTable<'i>>,
     quick: Spanned<DeValue<'i>>,
@@ -13,22 +13,11 @@ pub(super) fn overlay<'i>(
         return Err(start);
     };
     let mut table = table.clone();
-    merge(table.get_mut(), entries);
-    Ok(table)
-}
-
-/// Put entries in place of those of the same key; of a table, its entries one by one.
-fn merge<'i>(table: &mut DeTable<'i>, entries: DeTable<'i>) {
     for (key, value) in entries {
-        let name = key.get_ref().as_ref();
-        let own = table.get_mut(name).map(Spanned::get_mut);
-        if let (Some(DeValue::Table(own)), DeValue::Table(inner)) = (own, value.get_ref()) {
-            merge(own, inner.clone());
-        } else {
-            table.remove(name);
-            table.insert(key, value);
-        }
+        table.get_mut().remove(key.get_ref().as_ref());
+        table.get_mut().insert(key, value);
     }
+    Ok(table)
 }
 
 /// Where a key stands, with dots between tables and keys; if not itself, then its table.

@@ -88,3 +88,29 @@ fn scenes_have_files_of_their_own() {
     assert!(message.starts_with(told), "{message}");
     assert!(error(["a.nff", "a.nff"]).contains("named twice"));
 }
+
+/// Every experiment that comes with the program can be read, in its quick form too if it has one.
+#[test]
+fn the_experiments_of_the_program_are_read() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/experiments");
+    let mut seen = (0, 0);
+    for entry in std::fs::read_dir(folder).expect("experiments") {
+        let path = entry.expect("an entry").path();
+        if path.extension().is_none_or(|e| e != "toml") {
+            continue;
+        }
+        Plan::read(&path, Overrides::default()).expect("a plan");
+        seen.0 += 1;
+        let text = std::fs::read_to_string(&path).expect("text");
+        if text.contains("\n[quick]") {
+            let quick = true;
+            let overrides = Overrides {
+                quick,
+                ..Overrides::default()
+            };
+            Plan::read(&path, overrides).expect("a quick plan");
+            seen.1 += 1;
+        }
+    }
+    assert!(seen.0 >= 14 && seen.1 >= 8, "{seen:?}");
+}

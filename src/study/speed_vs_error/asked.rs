@@ -5,7 +5,8 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::scene::Scene;
 use crate::study::kernel::Kernel;
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+
+use super::check::LONGER;
 
 pub use super::method::Method;
 
@@ -26,6 +27,7 @@ pub struct SpeedVsError {
     /// Whether intervals and tests keep their word.
     pub coverage: Option<Coverage>,
     /// What is expected.
+    #[serde(default)]
     pub expect: Expect,
 }
 
@@ -99,20 +101,28 @@ pub struct Coverage {
     pub error: f64,
 }
 
-/// Bounds written before the run that they judge.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+/// Bounds written before the run that they judge. Kernels and coverage have theirs by nature.
+#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Scrambled Sobol' at the most lines: NRMSE of the nodes times sqrt(N) is at most this.
-    pub sobol_nodes: f64,
-    /// ... the mean square error of C is at most that of random lines over this.
-    pub sobol_gain: f64,
-    /// ... the exponent of C's error is at least this.
-    pub sobol_exponent: f64,
-    /// Scenes on which these hold, of the samplers'; on others they are told, not judged.
-    pub judged: Vec<String>,
-    /// A plane search that is to be nearly as good as the exact one, if any.
+    /// Of scrambled Sobol' lines.
+    pub sobol: Option<SobolBounds>,
+    /// A plane search that is to be nearly as good as the exact one.
     pub planes: Option<PlaneBound>,
+}
+
+/// What scrambled Sobol' lines are to reach at the most lines, on these scenes.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct SobolBounds {
+    /// The scenes, of the samplers'; on others it is told, not judged.
+    pub scenes: Vec<String>,
+    /// NRMSE of the nodes times sqrt(N), at most.
+    pub nodes: f64,
+    /// Mean square error of C by random lines over that by these, at least.
+    pub gain: f64,
+    /// Exponent of C's error, at least.
+    pub exponent: f64,
 }
 
 /// A plane search that is to be nearly as good as the exact one.
@@ -125,145 +135,14 @@ pub struct PlaneBound {
     pub above: f64,
 }
 
-/// Fewest replicates: the interval of an RMSE is then -20 % to +32 %.
-const FEWEST_REPLICATES: u32 = 32;
-
 impl SpeedVsError {
-    /// Whether the values make sense together and with the scenes.
-    pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
-        let known = |key: &'static str, own: &[String]| {
-            wrong_unless(!own.is_empty(), key, || {
-                format!("{key} must name at least one scene")
-            })?;
-            own.iter().try_for_each(|scene| {
-                wrong_unless(scenes.contains(scene), key, || {
-                    format!("{key}: '{scene}' is not among the experiment's scenes")
-                })
-            })
-        };
-        let rounds = |key: &'static str, times: u32| {
-            wrong_unless(times >= 2 && times.is_multiple_of(2), key, || {
-                format!("{key} = {times}, but it must be even and at least 2, for two halves")
-            })
-        };
-        if let Some(part) = &self.samplers {
-            known("samplers.scenes", &part.scenes)?;
-            known("expect.judged", &self.expect.judged)?;
-            wrong_unless(
-                part.methods.contains(&Method::Random),
-                "samplers.methods",
-                || "samplers.methods must name 'random', which the others are held against".into(),
-            )?;
-            let powers = part.from.is_power_of_two() && part.to.is_power_of_two();
-            let range = 64 <= part.from && part.from < part.to && part.to <= 1 << 24;
-            wrong_unless(powers && range, "samplers.from", || {
-                format!(
-                    "samplers.from = {}, samplers.to = {}, but they must be powers of two, from at least 64, to above it and at \
-                     most 2^24",
-                    part.from, part.to
-                )
-            })?;
-            wrong_unless(
-                part.replicates >= FEWEST_REPLICATES,
-                "samplers.replicates",
-                || {
-                    format!(
-                        "samplers.replicates = {}, but it must be at least {FEWEST_REPLICATES}",
-                        part.replicates
-                    )
-                },
-            )?;
-            let long = part.reference == 0
-                || part.reference.is_power_of_two() && part.reference >= 32 * part.to;
-            wrong_unless(
-                long && part.reference <= 1 << 30,
-                "samplers.reference",
-                || {
-                    format!(
-                        "samplers.reference = {}, but it must be 0 or a power of two, at least 32 times samplers.to and at most 2^30",
-                        part.reference
-                    )
-                },
-            )?;
-            let shares = part.wanted.iter().all(|e| *e > 0.0 && *e < 1.0);
-            wrong_unless(shares, "samplers.wanted", || {
-                "samplers.wanted must be relative errors between 0 and 1".into()
-            })?;
-            let once =
-                (1..part.methods.len()).all(|i| !part.methods[..i].contains(&part.methods[i]));
-            wrong_unless(once, "samplers.methods", || {
-                "samplers.methods names a method twice".into()
-            })?;
-            rounds("samplers.rounds", part.rounds)?;
-        }
-        if let Some(part) = &self.precision {
-            known("precision.scenes", &part.scenes)?;
-            wrong_unless(!part.kernels.is_empty(), "precision.kernels", || {
-                "precision.kernels must name at least one".into()
-            })?;
-            let offsets = part.offsets.iter().all(|o| (0.0..=1e12).contains(o));
-            wrong_unless(
-                offsets && !part.offsets.is_empty(),
-                "precision.offsets",
-                || "precision.offsets must be at least one number of 0 to 1e12".into(),
-            )?;
-            wrong_unless(
-                (64..=1 << 28).contains(&part.lines),
-                "precision.lines",
-                || {
-                    format!(
-                        "precision.lines = {}, but it must be 64 to 2^28",
-                        part.lines
-                    )
-                },
-            )?;
-            rounds("precision.rounds", part.rounds)?;
-        }
-        if let Some(part) = &self.planes {
-            known("planes.scenes", &part.scenes)?;
-            check_strategies(&part.strategies)?;
-            let exact = part.strategies.contains(&Strategy::Sah);
-            wrong_unless(exact, "planes.strategies", || {
-                "planes.strategies must name 'sah', the exact search".into()
-            })?;
-            let once = part.clipped.contains(&false)
-                && part.clipped.len() <= 2
-                && part.clipped.iter().filter(|c| **c).count() <= 1;
-            wrong_unless(once, "planes.clipped", || {
-                "planes.clipped must be [false] or [false, true]".into()
-            })?;
-            rounds("planes.builds", part.builds)?;
-            if let Some(bound) = &self.expect.planes {
-                let there = part.strategies.contains(&bound.strategy);
-                wrong_unless(there && bound.above >= 0.0, "expect.planes", || {
-                    format!(
-                        "expect.planes: '{}' must be among planes.strategies, and above a number, 0 or more",
-                        bound.strategy
-                    )
-                })?;
-            }
-        }
-        if let Some(part) = &self.coverage {
-            known("coverage.scene", std::slice::from_ref(&part.scene))?;
-            wrong_unless(
-                part.error > 0.0 && part.error < 1.0,
-                "coverage.error",
-                || {
-                    format!(
-                        "coverage.error = {}, but it must be between 0 and 1",
-                        part.error
-                    )
-                },
-            )?;
-        }
-        Ok(())
-    }
-
     /// Take so many lines: at most, by samplers; of each family, by kernels.
     pub fn set_lines(&mut self, lines: u64) -> Result<(), String> {
         if let Some(part) = &mut self.samplers {
             part.to = lines;
-            part.reference = part.reference.max(32 * lines).min(part.reference * lines);
+            if part.reference > 0 {
+                part.reference = part.reference.max(LONGER * lines);
+            }
         }
         if let Some(part) = &mut self.precision {
             part.lines = lines;
@@ -278,7 +157,7 @@ impl SpeedVsError {
             self.samplers.as_ref().map(|part| &part.scenes),
             self.precision.as_ref().map(|part| &part.scenes),
             self.planes.as_ref().map(|part| &part.scenes),
-            Some(&self.expect.judged),
+            self.expect.sobol.as_ref().map(|bounds| &bounds.scenes),
         ];
         let one = self.coverage.as_ref().map(|part| &part.scene);
         lists.into_iter().flatten().flatten().chain(one)
@@ -309,7 +188,7 @@ impl SpeedVsError {
             self.samplers.as_mut().map(|part| &mut part.scenes),
             self.precision.as_mut().map(|part| &mut part.scenes),
             self.planes.as_mut().map(|part| &mut part.scenes),
-            Some(&mut self.expect.judged),
+            self.expect.sobol.as_mut().map(|bounds| &mut bounds.scenes),
         ];
         let one = self.coverage.as_mut().map(|part| &mut part.scene);
         let all = lists.into_iter().flatten().flatten().chain(one);

@@ -1,6 +1,6 @@
 //! Errors of estimates over independent replicates, with their intervals and what they gain over independent lines.
 
-use crate::stats::{chi_square_quantile, cluster_bootstrap, f_quantile};
+use crate::stats::{chi_square_quantile, cluster_bootstrap, f_quantile, normal_quantile};
 use crate::study::records::ErrorRecord;
 
 use super::Piece;
@@ -18,6 +18,28 @@ pub const LEVEL: f64 = 0.95;
 
 /// Draws of a bootstrap.
 pub const DRAWS: usize = 1000;
+
+/// An interval from drawing replicates, made as much wider around `value` as the few of them ask for: percentiles are too
+/// short by sqrt(1 - 1/n) and by the tails of Student's t (Davison & Hinkley 1997, 5.3).
+pub fn widened(value: f64, (lo, hi): (f64, f64), replicates: usize) -> (f64, f64) {
+    let n = replicates as f64;
+    let student = f_quantile(LEVEL, 1.0, n - 1.0).sqrt();
+    let factor = student / normal_quantile(LEVEL) * (n / (n - 1.0)).sqrt();
+    (value + factor * (lo - value), value + factor * (hi - value))
+}
+
+/// The same of what is positive, by its logarithm.
+fn widened_ratio(value: f64, (lo, hi): (f64, f64), replicates: usize) -> (f64, f64) {
+    if !(value > 0.0 && lo > 0.0) {
+        return (lo, hi);
+    }
+    let ends = (libm::log(lo / value), libm::log(hi / value));
+    let (lo, hi) = widened(0.0, ends, replicates);
+    (value * libm::exp(lo), value * libm::exp(hi))
+}
+
+/// Relative errors below this are rounding: the estimate is exact.
+pub const EXACT: f64 = 1e-12;
 
 /// True values of n_K, n_B, n_t and C.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -149,7 +171,11 @@ impl Series {
             let figures =
                 |drawn: &[usize]| Some(vec![level.mean_square_of(drawn).sqrt(), gain(drawn)]);
             let found = cluster_bootstrap(replicates, DRAWS, piece.seed, LEVEL, figures);
-            (found[0].expect("every draw has an error"), found[1])
+            let of_rmse = found[0].expect("every draw has an error");
+            (
+                widened_ratio(rmse, of_rmse, replicates),
+                found[1].map(|ends| widened_ratio(gain(&all), ends, replicates)),
+            )
         } else {
             let r = replicates as f64;
             let outside = 0.5 * (1.0 - LEVEL);
@@ -160,7 +186,7 @@ impl Series {
                 Some((ends(1.0 - outside), ends(outside))),
             )
         };
-        let own_gain = (self.way.method != random.way.method && rmse > 0.0).then(|| gain(&all));
+        let own_gain = (self.way.method != random.way.method && rmse > EXACT).then(|| gain(&all));
         let of_gain = of_gain.filter(|_| own_gain.is_some());
         ErrorRecord {
             cell: piece.id.clone(),

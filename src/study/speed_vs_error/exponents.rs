@@ -4,7 +4,7 @@ use crate::stats::cluster_bootstrap;
 use crate::study::records::{EnoughRecord, ExponentRecord};
 
 use super::Piece;
-use super::errors::{DRAWS, LEVEL, Level, Series};
+use super::errors::{DRAWS, EXACT, LEVEL, Level, Series, widened};
 
 /// ln RMSE = `constant` - `exponent` ln N, by least squares over the levels, which weigh the same: each has as many
 /// replicates.
@@ -15,11 +15,12 @@ struct Law {
 }
 
 impl Law {
-    /// Of these replicates of every level; `None` with fewer than two levels, or where a level has no error at all.
+    /// Of these replicates of every level; `None` with fewer than two levels, or where a level has no error but rounding.
     fn fit(series: &Series, drawn: &[usize]) -> Option<Self> {
         let point = |level: &Level| {
             let square = level.mean_square_of(drawn);
-            (square > 0.0).then(|| (libm::log(level.lines as f64), 0.5 * libm::log(square)))
+            (square > EXACT * EXACT)
+                .then(|| (libm::log(level.lines as f64), 0.5 * libm::log(square)))
         };
         let points: Vec<(f64, f64)> = series.levels.iter().map(point).collect::<Option<_>>()?;
         let n = points.len() as f64;
@@ -43,7 +44,8 @@ pub fn exponent(series: &Series, piece: &Piece<'_>) -> Option<ExponentRecord> {
     let law = Law::fit(series, &all)?;
     let drawn = |drawn: &[usize]| Some(vec![Law::fit(series, drawn)?.exponent]);
     let intervals = cluster_bootstrap(replicates, DRAWS, piece.seed, LEVEL, drawn);
-    let (exponent_lo, exponent_hi) = intervals.first().copied().flatten()?;
+    let drawn = intervals.first().copied().flatten()?;
+    let (exponent_lo, exponent_hi) = widened(law.exponent, drawn, replicates);
     Some(ExponentRecord {
         scene: piece.scene.name.clone(),
         sampler: series.way.method.name().into(),

@@ -25,6 +25,28 @@ pub enum Method {
 }
 
 impl Method {
+    /// Each of them.
+    pub const ALL: [Self; 5] = [
+        Self::Random,
+        Self::Stratified,
+        Self::Sobol,
+        Self::Conditional,
+        Self::ConditionalSobol,
+    ];
+
+    /// One line on what it does.
+    pub fn description(self) -> &'static str {
+        match self {
+            Self::Conditional => {
+                "directions of random lines, positions integrated exactly: checks directions alone"
+            }
+            Self::ConditionalSobol => {
+                "directions of sobol lines, positions integrated exactly: checks directions alone"
+            }
+            _ => self.sampler().description(),
+        }
+    }
+
     /// The name in files.
     pub fn name(self) -> &'static str {
         match self {

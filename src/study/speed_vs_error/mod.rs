@@ -1,6 +1,7 @@
 //! The experiment `speed-vs-error`: what a sampler, a kernel, a plane search costs in time, and what it costs in error.
 
 pub mod asked;
+pub mod check;
 pub mod coverage;
 mod errors;
 mod exponents;

@@ -9,10 +9,10 @@ use crate::cost::CostModel;
 use crate::geom::{Line, Ray, Span};
 use crate::kd::stream::Streams;
 use crate::kd::{Ask, Counts, Prediction, Stack, Tree, Work, predict};
-use crate::rays::{Conditional, PointSet, Sampler};
+use crate::rays::{Conditional, PointSet};
 use crate::scene::Scene;
 
-use super::method::Way;
+use super::method::{Method, Way};
 
 /// A tree, what areas predict of it, and the seed of its lines.
 pub struct Subject<'a> {
@@ -70,7 +70,7 @@ impl<'a> Subject<'a> {
         done: impl Fn(u64) + Sync,
     ) -> Vec<Replicate> {
         let one = |workshop: &mut Workshop, replicate: u32| {
-            let set = self.set(way.method.sampler(), level, replicate, lines);
+            let set = self.set(way.method, level, replicate, lines);
             let found = match way.ask {
                 _ if way.method.is_conditional() => self.directions(&set, lines),
                 Ask::All => self.hits(&set, lines, workshop),
@@ -85,10 +85,10 @@ impl<'a> Subject<'a> {
             .collect()
     }
 
-    /// One set of lines; different levels and replicates are independent.
-    pub fn set(&self, sampler: Sampler, level: u32, replicate: u32, lines: u64) -> PointSet {
-        let number = u64::from(level) << 32 | u64::from(replicate);
-        PointSet::new(sampler, self.seed, number, lines)
+    /// One set of lines; different methods, levels and replicates are independent.
+    pub fn set(&self, method: Method, level: u32, replicate: u32, lines: u64) -> PointSet {
+        let number = (method as u64) << 48 | u64::from(level) << 32 | u64::from(replicate);
+        PointSet::new(method.sampler(), self.seed, number, lines)
     }
 
     /// Lines that nothing stops: the hits of every node.

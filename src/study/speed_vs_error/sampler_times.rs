@@ -37,7 +37,7 @@ pub fn times(
     let job = |way: Way, level: usize, lines: u64| Job {
         way,
         lines,
-        set: subject.set(way.method.sampler(), level as u32, 0, lines),
+        set: subject.set(way.method, level as u32, 0, lines),
         best: Minima::new(lines.div_ceil(CHUNK as u64) as usize),
     };
     let mut jobs = Vec::new();

@@ -9,7 +9,7 @@ use super::method::{Method, Way};
 
 /// Each expectation of the samplers and what came of it; none where Sobol' lines are not among them.
 pub fn verdicts(asked: &SpeedVsError, found: &[Found]) -> Vec<Verdict> {
-    let Some(part) = &asked.samplers else {
+    let Some((part, bounds)) = asked.samplers.as_ref().zip(asked.expect.sobol.as_ref()) else {
         return Vec::new();
     };
     let ways = Way::all(part);
@@ -17,9 +17,7 @@ pub fn verdicts(asked: &SpeedVsError, found: &[Found]) -> Vec<Verdict> {
         return Vec::new();
     };
     let judged = |scene: &String, sampler: &str, rays: &str| {
-        asked.expect.judged.contains(scene)
-            && sampler == sobol.method.name()
-            && rays == sobol.rays()
+        bounds.scenes.contains(scene) && sampler == sobol.method.name() && rays == sobol.rays()
     };
     let errors = found.iter().flat_map(|f| &f.errors);
     let errors: Vec<&ErrorRecord> = errors
@@ -32,23 +30,30 @@ pub fn verdicts(asked: &SpeedVsError, found: &[Found]) -> Vec<Verdict> {
 
     let at = part.to;
     let nodes = errors.iter().filter(|e| e.quantity == NODES);
-    let scaled = nodes.map(|e| (e.rmse * (e.lines as f64).sqrt(), &*e.scene));
+    let scaled = nodes.map(|e| {
+        let root = (e.lines as f64).sqrt();
+        (
+            e.rmse * root,
+            [e.rmse_lo * root, e.rmse_hi * root],
+            &*e.scene,
+        )
+    });
     let gains = errors.iter().filter(|e| e.quantity == "C");
-    let gains = gains.filter_map(|e| Some((e.gain?, &*e.scene)));
-    let falls = exponents.iter().map(|e| (e.exponent, &*e.scene));
-    let (most, gain, exponent) = (
-        asked.expect.sobol_nodes,
-        asked.expect.sobol_gain,
-        asked.expect.sobol_exponent,
-    );
-    let verdict =
-        |name: &str, worst: Option<(f64, &str)>, held: &dyn Fn(f64) -> bool, what: String| {
-            worst.map(|(value, scene)| Verdict {
-                name: name.into(),
-                held: held(value),
-                message: format!("{what}: {value:.3} ({scene})"),
-            })
-        };
+    let gains = gains.filter_map(|e| Some((e.gain?, [e.gain_lo?, e.gain_hi?], &*e.scene)));
+    let falls = exponents
+        .iter()
+        .map(|e| (e.exponent, [e.exponent_lo, e.exponent_hi], &*e.scene));
+    let (most, gain, exponent) = (bounds.nodes, bounds.gain, bounds.exponent);
+    let verdict = |name: &str,
+                   worst: Option<(f64, [f64; 2], &str)>,
+                   held: &dyn Fn(f64) -> bool,
+                   what: String| {
+        worst.map(|(value, [lo, hi], scene)| Verdict {
+            name: name.into(),
+            held: held(value),
+            message: format!("{what}: {value:.3}, 95 % {lo:.3} to {hi:.3} ({scene})"),
+        })
+    };
     let largest = scaled.max_by(|a, b| a.0.total_cmp(&b.0));
     let least_gain = gains.min_by(|a, b| a.0.total_cmp(&b.0));
     let least_fall = falls.min_by(|a, b| a.0.total_cmp(&b.0));

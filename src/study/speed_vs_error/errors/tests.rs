@@ -206,7 +206,7 @@ fn replicates_do_not_depend_on_threads() {
         if ask == Ask::All && !method.is_conditional() {
             let mut counts = crate::kd::Counts::new(&tree);
             let mut stack = crate::kd::Stack::default();
-            let set = subject.set(method.sampler(), 2, 0, lines);
+            let set = subject.set(method, 2, 0, lines);
             for line in set.lines(&scene.world, 0..lines) {
                 let span = crate::geom::Span::FULL;
                 crate::kd::traverse::traverse_line(&tree, &line, span, &mut stack, &mut counts);
