@@ -97,7 +97,8 @@ pub struct Finding {
     pub measured: String,
     /// What that means.
     pub outcome: Outcome,
-    /// Whether the verdict demands that it passes.
+    /// Whether the verdict demands that it passes or is off. A case and a kernel fix it, not what came out; that no check
+    /// panics or hangs and that every tree is sound is demanded of all.
     pub demanded: bool,
 }
 
@@ -106,7 +107,7 @@ pub struct Finding {
 pub enum Outcome {
     /// As expected; a refusal that is expected is one.
     Pass,
-    /// Off by so many units in the last place, or as the case says.
+    /// Off by so many units in the last place, or as the case says, and no more than is allowed where it is demanded.
     Off(f64),
     /// Refused with a message, where an answer is expected.
     Refused,
@@ -140,15 +141,20 @@ impl Finding {
     /// Demanded: what came out must read as what is expected.
     pub fn of(expected: impl ToString, measured: impl ToString) -> Self {
         let (expected, measured) = (expected.to_string(), measured.to_string());
-        let outcome = if expected == measured {
-            Outcome::Pass
-        } else {
-            Outcome::Failed
-        };
+        let right = expected == measured;
+        Self::judged(expected, measured, right)
+    }
+
+    /// Demanded, with what came out and whether that is right.
+    pub fn judged(expected: impl ToString, measured: impl ToString, right: bool) -> Self {
         Self {
-            expected,
-            measured,
-            outcome,
+            expected: expected.to_string(),
+            measured: measured.to_string(),
+            outcome: if right {
+                Outcome::Pass
+            } else {
+                Outcome::Failed
+            },
             demanded: true,
         }
     }

@@ -85,20 +85,23 @@ fn right_digits(rows: &[Vec<f64>], residual: f64, demanded: f64) -> Finding {
         y.extend([sum + residual, sum - residual]);
     }
     let expected = format!("at least {demanded} digits");
-    let measured = match least_squares(&design, rows[0].len(), &y) {
+    match least_squares(&design, rows[0].len(), &y) {
         Ok(fit) => {
-            let errors = fit.coefficients.iter().map(|b| (b - 1.0).abs());
-            let worst = errors.fold(0.0, |worst: f64, error| worst.max(error));
+            let error = |b: &f64| {
+                if b.is_nan() {
+                    f64::INFINITY
+                } else {
+                    (b - 1.0).abs()
+                }
+            };
+            // No error is told as one in the last place.
+            let errors = fit.coefficients.iter().map(error);
+            let worst = errors.fold(f64::EPSILON, f64::max);
             let digits = -libm::log10(worst);
-            if digits >= demanded {
-                expected.clone()
-            } else {
-                format!("{digits:.1} digits")
-            }
+            Finding::judged(expected, format!("{digits:.1} digits"), digits >= demanded)
         }
-        Err(error) => error.to_string(),
-    };
-    Finding::of(expected, measured)
+        Err(error) => Finding::judged(expected, error, false),
+    }
 }
 
 /// A design that must be refused in so many words.
