@@ -1,7 +1,8 @@
 //! Checks that may panic or hang are run where neither does harm.
 
 use std::any::Any;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc::{RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
@@ -46,6 +47,33 @@ fn guarded_for(
     }
 }
 
+/// The results of some work on things, in their order, by as many threads as the pool has, none of them of the pool: work that
+/// waits for a guarded check would keep from the pool what that check needs of it.
+pub fn in_plain_threads<T: Sync, R: Send>(things: &[T], work: impl Fn(&T) -> R + Sync) -> Vec<R> {
+    let next = AtomicUsize::new(0);
+    let worker = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            match things.get(i) {
+                Some(thing) => done.push((i, work(thing))),
+                None => return done,
+            }
+        }
+    };
+    let mut all: Vec<(usize, R)> = thread::scope(|scope| {
+        let workers: Vec<_> = (0..rayon::current_num_threads())
+            .map(|_| scope.spawn(worker))
+            .collect();
+        let join = |worker: thread::ScopedJoinHandle<'_, _>| {
+            worker.join().unwrap_or_else(|panic| resume_unwind(panic))
+        };
+        workers.into_iter().flat_map(join).collect()
+    });
+    all.sort_unstable_by_key(|&(i, _)| i);
+    all.into_iter().map(|(_, result)| result).collect()
+}
+
 fn message(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str))
@@ -56,6 +84,21 @@ fn message(panic: &(dyn Any + Send)) -> &str {
 mod tests {
     use super::*;
     use crate::study::stability::case::Outcome;
+
+    /// In order, and with the pool free for what checks do in parallel: if its workers waited for them, all would hang.
+    #[test]
+    fn checks_may_use_the_pool() {
+        let things: Vec<u64> = (0..64).collect();
+        let found = in_plain_threads(&things, |&n| {
+            let check = move || {
+                let (a, b) = rayon::join(|| n, || n);
+                Some(Finding::of(2 * n, a + b))
+            };
+            guarded_for(Duration::from_secs(20), check).unwrap()
+        });
+        let expected: Vec<Finding> = things.iter().map(|n| Finding::of(2 * n, 2 * n)).collect();
+        assert_eq!(found, expected);
+    }
 
     #[test]
     fn panics_and_hangs_are_failures() {

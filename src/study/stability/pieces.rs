@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-use rayon::prelude::*;
-
 use crate::kd::Rules;
 use crate::scene::Scene;
 use crate::study::hits::cell::plant;
@@ -15,7 +13,7 @@ use crate::study::{Plan, SCHEMA};
 
 use super::case::{Case, Check, Finding, Group, Outcome};
 use super::catalogue::select;
-use super::guard::guarded;
+use super::guard::{guarded, in_plain_threads};
 use super::random::{Against, Bench};
 use super::{Found, Stability, metamorphic};
 
@@ -182,10 +180,7 @@ fn check(cases: &[Case], rules: &[Rules], kernels: &[Kernel]) -> Vec<CaseRecord>
                 .map(move |cell| (case, cell))
         })
         .collect();
-    let found: Vec<Option<CaseRecord>> = all
-        .into_par_iter()
-        .map(|(case, (rules, kernel))| cell(case, rules, kernel))
-        .collect();
+    let found = in_plain_threads(&all, |&(case, (rules, kernel))| cell(case, rules, kernel));
     found.into_iter().flatten().collect()
 }
 
@@ -225,8 +220,9 @@ fn tree(
     let bench = Bench {
         scene,
         tree: &tree,
+        // No two trees judge the same pairs.
+        seed: line_seed(plan.seed, &format!("{} {strategy}", content(scene))),
         strategy,
-        seed,
     };
     for &kernel in &asked.kernels {
         for (against, pairs) in [
