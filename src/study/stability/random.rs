@@ -1,8 +1,11 @@
 //! Random pairs: lines against the boxes of a tree's nodes and against triangles, by the kernels and by the exact oracle.
 //!
-//! A line is held against every node whose parent it visits or should visit, and against every triangle of the leaves it visits.
+//! A line is held against every node whose parent it visits or should visit, and against every triangle of the leaves it visits
+//! or should visit, each once.
 //! Lines are the metric's own, or aimed at edges and corners. They come in waves of a fixed number, so that the pairs do not depend on the number of
 //! threads.
+
+use std::collections::BTreeMap;
 
 use rayon::prelude::*;
 
@@ -94,7 +97,8 @@ impl Bench<'_> {
                         boxes(kernel, &in_kernel, &line, &mut seen, &mut tally, &mut ties)?
                     }
                     Against::Triangle => {
-                        self.triangles(kernel, &line, &mut seen, &mut tally, &mut ties)?
+                        let near = self.near(&in_kernel, &line, &mut seen)?;
+                        self.triangles(kernel, &line, &near, &mut tally, &mut ties)?
                     }
                 }
             }
@@ -121,39 +125,50 @@ impl Bench<'_> {
         Ok(self.rows(kernel, against, aimed, tally, ties))
     }
 
-    /// The triangles of the leaves that the line visits in `f64`.
+    /// The triangles of the leaves that the kernel visits or whose boxes the line meets, and whether a visited leaf holds them.
+    fn near(
+        &self,
+        tree: &KernelTree<'_>,
+        line: &Line,
+        seen: &mut Seen,
+    ) -> Result<BTreeMap<u32, bool>, Refusal> {
+        let line = tree.visit(line, seen)?;
+        let triangles = self.scene.objects.triangles.len() as u32;
+        let mut near = BTreeMap::new();
+        tree.judge(&line, seen, |node, visited, exact| {
+            if let NodeKind::Leaf { first, count } = self.tree.nodes[node as usize].kind()
+                && (visited || exact.hit)
+            {
+                for &object in self.tree.objects(first, count) {
+                    if object < triangles {
+                        *near.entry(object).or_insert(false) |= visited;
+                    }
+                }
+            }
+        });
+        Ok(near)
+    }
+
+    /// The triangles near a line: one is hit if a visited leaf holds it and its test says so.
     fn triangles(
         &self,
         kernel: Kernel,
         line: &Line,
-        seen: &mut Seen,
+        near: &BTreeMap<u32, bool>,
         tally: &mut Tally,
         ties: &mut Vec<Tie>,
     ) -> Result<(), Refusal> {
-        let tree = self.tree;
-        let triangles = &self.scene.objects.triangles;
-        KernelTree::Wide(tree).visit(line, seen)?;
-        for (number, node) in (0..).zip(&tree.nodes) {
-            let NodeKind::Leaf { first, count } = node.kind() else {
-                continue;
-            };
-            if !seen.has(number) {
-                continue;
-            }
-            for &object in tree.objects(first, count) {
-                let Some(triangle) = triangles.get(object as usize) else {
-                    continue;
-                };
-                let judged = line_and_triangle(kernel, line, triangle)?;
-                let ulps = judged.ulps * last_place(kernel);
-                if tally.add(kernel, judged.said, judged.exact, ulps) {
-                    ties.push(Tie {
-                        target: object,
-                        ulps: judged.ulps,
-                        exact: judged.exact,
-                        line: *line,
-                    });
-                }
+        for (&object, &visited) in near {
+            let triangle = &self.scene.objects.triangles[object as usize];
+            let judged = line_and_triangle(kernel, line, triangle)?;
+            let ulps = judged.ulps * last_place(kernel);
+            if tally.add(kernel, judged.said && visited, judged.exact, ulps) {
+                ties.push(Tie {
+                    target: object,
+                    ulps: judged.ulps,
+                    exact: judged.exact,
+                    line: *line,
+                });
             }
         }
         Ok(())
@@ -230,73 +245,4 @@ fn boxes(
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::cost::CostModel;
-    use crate::kd::{Rules, StopRule, Strategy, build_objects};
-
-    fn scene_and_tree(name: &str) -> (Scene, Tree) {
-        let scene = Scene::load(name).unwrap();
-        let rules = Rules {
-            strategy: Strategy::Sah,
-            stop: StopRule::Objects {
-                limit: 2,
-                depth: Some(12),
-            },
-            cost: CostModel::WALD_HAVRAN,
-            clipped: false,
-        };
-        let tree = build_objects(&scene.objects, &scene.bounds, scene.world, &rules);
-        (scene, tree)
-    }
-
-    /// f64 errs in ties alone, the padded kernel misses nothing, and the unpadded one does: the aim is good.
-    #[test]
-    fn a_small_run_is_right() {
-        let (scene, tree) = scene_and_tree("spd:tetra:3");
-        let bench = Bench {
-            scene: &scene,
-            tree: &tree,
-            strategy: "sah".into(),
-            seed: 1,
-        };
-        let mut missed = 0;
-        for against in [Against::Box, Against::Triangle] {
-            for aimed in [false, true] {
-                let judge = |kernel| bench.judge(kernel, against, aimed, 20_000).unwrap().0;
-                let wide = judge(Kernel::F64);
-                assert!(wide.cases >= 20_000 && wide.hits > 100, "{wide:?}");
-                assert_eq!((wide.wrong, wide.missed), (0, 0), "{wide:?}");
-                assert_eq!(wide.ties > 100, aimed, "{wide:?}");
-                assert_eq!(judge(Kernel::F64), wide);
-                if against == Against::Box {
-                    let padded = judge(Kernel::F32Padded);
-                    assert_eq!(padded.missed + padded.tied_missed, 0, "{padded:?}");
-                    let narrow = judge(Kernel::F32);
-                    missed += narrow.missed + narrow.tied_missed;
-                }
-            }
-        }
-        assert!(missed > 100, "{missed}");
-    }
-
-    /// A tree whose planes were moved after its boxes were made is caught: boxes and planes must agree.
-    #[test]
-    fn a_wrong_plane_is_caught() {
-        let (scene, mut tree) = scene_and_tree("simple:soup:60");
-        if let NodeKind::Inner { axis, split, left } = tree.nodes[0].kind() {
-            tree.nodes[0] = crate::kd::Node::inner(axis, split + 0.05, left);
-        }
-        let bench = Bench {
-            scene: &scene,
-            tree: &tree,
-            strategy: "sah".into(),
-            seed: 1,
-        };
-        let row = bench
-            .judge(Kernel::F64, Against::Box, false, 20_000)
-            .unwrap()
-            .0;
-        assert!(row.wrong > 0 && row.missed > 0, "{row:?}");
-    }
-}
+mod tests;
