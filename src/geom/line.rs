@@ -45,34 +45,37 @@ impl<T: Real> Span<T> {
 pub struct Line<V = DVec3> {
     /// Point at t = 0.
     pub origin: V,
-    /// Direction, not necessarily of unit length; never zero.
+    /// Direction, not necessarily of unit length; never zero. A part whose reciprocal overflows is 0: see [`Line::new`].
     pub direction: V,
     /// Reciprocal of each direction part; 0 where the line counts as parallel (see [`Line::is_parallel`]).
     pub inverse: V,
 }
 
 impl<V: Vector> Line<V> {
-    /// A line through `origin`. `direction` must not be zero; both must be finite.
+    /// A line through `origin`. Both must be finite, and the reciprocal of at least one part of `direction` too.
+    ///
+    /// A direction part whose reciprocal overflows (up to about 2^-1024 in `f64`, 2^-128 in `f32`) is kept as 0: the line that is meant
+    /// is the one with that part 0, for every test alike.
     #[inline]
     pub fn new(origin: V, direction: V) -> Self {
         debug_assert!((0..3).all(|k| origin[k].is_finite() && direction[k].is_finite()));
-        debug_assert!((0..3).any(|k| direction[k] != V::Real::ZERO));
-        let inverse = [0, 1, 2].map(|k| {
+        let parts = [0, 1, 2].map(|k| {
             let reciprocal = V::Real::ONE / direction[k];
             if reciprocal.is_finite() {
-                reciprocal
+                (direction[k], reciprocal)
             } else {
-                V::Real::ZERO
+                (V::Real::ZERO, V::Real::ZERO)
             }
         });
+        debug_assert!(parts.iter().any(|part| part.0 != V::Real::ZERO));
         Self {
             origin,
-            direction,
-            inverse: inverse.into(),
+            direction: parts.map(|part| part.0).into(),
+            inverse: parts.map(|part| part.1).into(),
         }
     }
 
-    /// Whether the line is parallel to the planes `x[axis] = const`: its direction part is zero, or so small that the
+    /// Whether the line is parallel to the planes `x[axis] = const`: its direction part is zero, or was so small that the
     /// reciprocal overflows.
     #[inline]
     pub fn is_parallel(&self, axis: Axis) -> bool {

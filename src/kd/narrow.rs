@@ -233,7 +233,8 @@ pub fn narrow_triangles(objects: &Objects) -> Result<Vec<Triangle<Vec3>>, Refusa
 pub fn narrow_line(line: &Line) -> Result<Line<Vec3>, Refusal> {
     let origin = narrow_point(line.origin)?;
     let direction = narrow_point(line.direction)?;
-    if direction == Vec3::ZERO {
+    // Parts whose reciprocal overflows become 0: one must be left.
+    if !direction.abs().max_element().recip().is_finite() {
         return Err(Refusal::NoDirection(line.direction));
     }
     Ok(Line::new(origin, direction))

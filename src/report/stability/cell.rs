@@ -82,5 +82,5 @@ pub fn legend(pen: &Pen, baseline: f64) {
     entry(Outcome::Off, 1.0, false, "by 10⁶ or more");
     entry(Outcome::Refused, 1.0, false, "refused");
     entry(Outcome::Failed, 1.0, false, "failed");
-    entry(Outcome::Failed, 1.0, true, "framed: demanded to pass");
+    entry(Outcome::Failed, 1.0, true, "framed: demanded");
 }

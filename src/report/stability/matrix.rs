@@ -185,7 +185,7 @@ fn caption(which: &str, summary: &Summary) -> String {
     format!(
         "A row is a named case with an exactly known outcome, a column a kernel and a strategy's tree; blank: not for it. Passed: the \
          outcome is the expected one, a refusal included where one is expected. Off: by units in the last place of the kernel's \
-         numbers, or as the case says. Framed: demanded, and not passed. Stop {}. Seed {}.{which}",
+         numbers, or as the case says. Framed: demanded, and refused or failed. Stop {}. Seed {}.{which}",
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     )

@@ -64,9 +64,9 @@ impl Tally {
     }
 }
 
-/// Whether a row is to pass and does not.
+/// Whether a row is demanded and neither passes nor is off by what is allowed.
 pub fn missed(row: &CaseRecord) -> bool {
-    row.demanded && Outcome::of(row) != Outcome::Pass
+    row.demanded && !matches!(Outcome::of(row), Outcome::Pass | Outcome::Off)
 }
 
 /// A kernel's heading; a case that depends on none is checked once.

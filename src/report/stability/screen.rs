@@ -8,10 +8,10 @@ use crate::report::series::distinct;
 use crate::report::shown::{known, ratio, text};
 use crate::report::table::{Cell, Column, Table, fold};
 
-/// Cases named at most that are demanded and not passed.
+/// Cases named at most that are demanded and not right.
 const NAMED: usize = 6;
 
-/// Outcomes by group, what is demanded and not passed, random cases, transformed ones: those that the run has.
+/// Outcomes by group, what is demanded and not right, random cases, transformed ones: those that the run has.
 pub fn tables(run: &Stability, width: usize) -> String {
     let mut parts = Vec::new();
     if !run.cases.is_empty() {
@@ -58,13 +58,24 @@ fn groups(run: &Stability) -> Table {
     }
 }
 
-/// Which cases are demanded and not passed.
+/// Which cases are demanded and not right.
 fn wrong(run: &Stability) -> String {
     let own = run.cases.iter().filter(|row| missed(row));
     let all: Vec<_> = own.collect();
     let demanded = run.cases.iter().filter(|row| row.demanded).count() as u64;
     if all.is_empty() {
-        return format!("All {} demanded are passed.", counted(demanded, "outcome"));
+        let off = run
+            .cases
+            .iter()
+            .filter(|row| row.demanded && row.off.is_some());
+        let allowed = match off.count() as u64 {
+            0 => String::new(),
+            n => format!(", {} of them off by no more than is allowed", grouped(n)),
+        };
+        return format!(
+            "All {} demanded are right{allowed}.",
+            counted(demanded, "outcome")
+        );
     }
     let names = distinct(all.iter().map(|row| row.case.as_str()));
     let told = names.iter().take(NAMED).map(|name| {
@@ -78,7 +89,7 @@ fn wrong(run: &Stability) -> String {
         n => format!(" and {}", counted(n as u64, "more case")),
     };
     format!(
-        "Of {} demanded {} not passed: {}{more}.",
+        "Of {} demanded {} not right: {}{more}.",
         counted(demanded, "outcome"),
         grouped(all.len() as u64),
         told.join(", ")

@@ -131,7 +131,7 @@ fn a_run_fits_one_screen() {
     let flat = text.replace('\n', " ");
     for part in [
         "131 / 0 / 0 / 1",
-        "Of 161 outcomes demanded 1 not passed: trees-corner-touch-4 (f64).",
+        "Of 161 outcomes demanded 1 not right: trees-corner-touch-4 (f64).",
         "aimed",
         "by axes yzx.",
     ] {
@@ -142,7 +142,7 @@ fn a_run_fits_one_screen() {
     (right.random, right.metamorphic) = (Vec::new(), Vec::new());
     let text = screen::study(&run(right));
     assert!(
-        text.contains("All 160 outcomes demanded are passed."),
+        text.contains("All 160 outcomes demanded are right."),
         "{text}"
     );
     let mut none = parts();

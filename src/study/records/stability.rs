@@ -24,7 +24,7 @@ pub struct CaseRecord {
     pub outcome: String,
     /// How far off, in units of the last place of the kernel's numbers or as the case says.
     pub off: Option<f64>,
-    /// Whether the verdict demands that it passes: all of f64, and what the f32 kernels promise.
+    /// Whether the verdict demands that it passes or is off, which case and kernel fix: all of f64, and what the f32 kernels promise.
     pub demanded: bool,
 }
 
@@ -39,7 +39,7 @@ pub struct RandomRecord {
     pub strategy: String,
     /// `f64`, `f32` or `f32-padded`.
     pub kernel: String,
-    /// `box`: is a node visited; `triangle`: is a triangle hit.
+    /// `box`: is a node visited; `triangle`: is a triangle hit, in some leaf visited.
     pub against: String,
     /// `random` or `aimed`.
     pub family: String,
@@ -47,9 +47,9 @@ pub struct RandomRecord {
     pub cases: u64,
     /// Of them, those in which the line meets the box or triangle, exactly.
     pub hits: u64,
-    /// Taken for hit, but missed by more than 8 ulp.
+    /// Taken for hit, but missed by 8 ulp or more.
     pub wrong: u64,
-    /// Taken for missed, but hit by more than 8 ulp.
+    /// Taken for missed, but hit by 8 ulp or more; of a triangle, its leaf may have been passed by.
     pub missed: u64,
     /// Pairs nearer than 8 ulp to a tie.
     pub ties: u64,
@@ -111,6 +111,6 @@ pub struct MetamorphicRecord {
     pub nodes: u64,
     /// Nodes whose hits differ.
     pub differing_nodes: u64,
-    /// Lines whose nearest hit differs.
+    /// Lines whose nearest hit, or n_K, n_B or n_t on the way to it, differs.
     pub differing_hits: u64,
 }

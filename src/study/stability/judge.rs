@@ -9,7 +9,7 @@ use crate::study::kernel::Kernel;
 
 use super::case::{Finding, Outcome};
 
-/// Distance from a tie, in units of the kernel's last place, up to which a wrong verdict is one of rounding.
+/// Distance from a tie, in units of the kernel's last place, below which a wrong verdict is one of rounding.
 pub const TIE: f64 = 8.0;
 
 /// A unit of the last place of a kernel's numbers, in units of that of `f64`.
@@ -37,18 +37,15 @@ impl Judged {
         if hit { "hit" } else { "miss" }
     }
 
-    /// What it means. A wrong answer of `f64` fails unless the tie is near; of the padded kernel wrong misses do; what unpadded
-    /// `f32` gets wrong is told.
-    pub fn finding(self, kernel: Kernel) -> Finding {
+    /// What it means. `f64` must be right in ties too, as the numbers are such that it rounds nothing that matters; padded `f32`
+    /// must miss nothing; what else is wrong is told. Whether that is demanded the case says beforehand.
+    pub fn finding(self, kernel: Kernel, demanded: bool) -> Finding {
         let Self { said, exact, ulps } = self;
-        let (outcome, demanded) = if said == exact {
-            (Outcome::Pass, kernel != Kernel::F32)
-        } else {
-            match kernel {
-                Kernel::F64 if ulps > TIE => (Outcome::Failed, true),
-                Kernel::F32Padded if exact => (Outcome::Failed, true),
-                _ => (Outcome::Off(ulps), false),
-            }
+        let outcome = match kernel {
+            _ if said == exact => Outcome::Pass,
+            Kernel::F64 => Outcome::Failed,
+            Kernel::F32Padded if exact => Outcome::Failed,
+            Kernel::F32 | Kernel::F32Padded => Outcome::Off(ulps),
         };
         Finding {
             expected: Self::word(exact).into(),
@@ -59,35 +56,13 @@ impl Judged {
     }
 }
 
-impl Judged {
-    /// As [`finding`](Self::finding), for numbers that f64 rounds nowhere: it must be right in ties too. What is not promised is told, not
-    /// demanded.
-    pub fn finding_by_hand(self, kernel: Kernel, promised: bool) -> Finding {
-        let finding = self.finding(kernel);
-        let wrong = self.said != self.exact;
-        match (promised, kernel) {
-            (true, Kernel::F64) if wrong => Finding {
-                outcome: Outcome::Failed,
-                demanded: true,
-                ..finding
-            },
-            (false, _) if wrong => Finding {
-                outcome: Outcome::Off(self.ulps),
-                demanded: false,
-                ..finding
-            },
-            _ => finding,
-        }
-    }
-}
-
 /// The finding where a kernel refuses its input.
-pub fn refused(expected: impl ToString, refusal: &Refusal) -> Finding {
+pub fn refused(expected: impl ToString, refusal: &Refusal, demanded: bool) -> Finding {
     Finding {
         expected: expected.to_string(),
         measured: refusal.to_string(),
         outcome: Outcome::Refused,
-        demanded: false,
+        demanded,
     }
 }
 

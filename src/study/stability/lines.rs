@@ -112,7 +112,7 @@ impl SpanCase {
             Kernel::F32 | Kernel::F32Padded => {
                 let line = match narrow_line(&line) {
                     Ok(line) => line,
-                    Err(refusal) => return refused(word(self.hit), &refusal),
+                    Err(refusal) => return refused(word(self.hit), &refusal, true),
                 };
                 let unit = Aabb {
                     lo: UNIT.lo.as_vec3(),
@@ -172,15 +172,16 @@ pub fn cases() -> Vec<Case> {
         ),
         drawn(
             "reciprocal-overflows",
-            "a direction part whose reciprocal overflows counts as 0, and no number is NaN",
+            "a direction part whose reciprocal overflows is kept as 0, and no number is NaN",
             || {
                 let line = Line::new(DVec3::ZERO, DVec3::new(f64::from_bits(1), -0.0, 1.0));
                 Finding::of(
-                    "parallel to x, parallel to y, inverse of z 1",
+                    "parallel to x, parallel to y, direction [0, 0, 1], inverse of z 1",
                     format!(
-                        "{}parallel to x, {}parallel to y, inverse of z {}",
+                        "{}parallel to x, {}parallel to y, direction {}, inverse of z {}",
                         if line.is_parallel(0) { "" } else { "not " },
                         if line.is_parallel(1) { "" } else { "not " },
+                        line.direction,
                         line.inverse.z
                     ),
                 )

@@ -38,6 +38,8 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
     if let Err(fault) = sound(case, &scene, &tree, most) {
         return Finding::failed(expected, fault);
     }
+    // Unpadded f32 promises nothing but to refuse what is too coarse for it.
+    let demanded = kernel != Kernel::F32 || case.too_coarse;
     let in_kernel = match KernelTree::of(kernel, &tree) {
         Ok(_) if case.too_coarse && kernel != Kernel::F64 => {
             return Finding::failed("refused as too coarse", "taken");
@@ -56,7 +58,7 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
                 } else {
                     Outcome::Refused
                 },
-                demanded: true,
+                demanded,
             };
         }
     };
@@ -85,11 +87,10 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
             if ties > 0 {
                 measured += &format!(" ({} and {} of {ties} ties)", tied_wrong, tied_missed);
             }
-            let (outcome, demanded) = judge(kernel, &tally, differing.unwrap_or(0));
             Finding {
                 expected,
                 measured: measured + &hits,
-                outcome,
+                outcome: judge(kernel, &tally, differing.unwrap_or(0)),
                 demanded,
             }
         }
@@ -97,25 +98,28 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
             expected,
             measured: refusal,
             outcome: Outcome::Refused,
-            demanded: false,
+            demanded,
         },
     }
 }
 
-/// What a kernel's errors mean: `f64` may err in ties only and must find each nearest hit; padded planes must not miss.
-fn judge(kernel: Kernel, tally: &Tally, differing: u64) -> (Outcome, bool) {
-    let misses = tally.missed + tally.tied_missed;
+/// What a kernel's errors mean: `f64` may err in ties only, padded planes may only visit too much, and both must find each nearest
+/// hit; what unpadded `f32` gets wrong is counted.
+fn judge(kernel: Kernel, tally: &Tally, differing: u64) -> Outcome {
     let errors = tally.wrong + tally.missed;
-    match kernel {
-        Kernel::F64 if errors + differing == 0 => (Outcome::Pass, true),
-        Kernel::F64 => (Outcome::Failed, true),
-        Kernel::F32Padded if misses > 0 => (Outcome::Failed, true),
-        Kernel::F32Padded if differing > 0 => (Outcome::Off(differing as f64), false),
-        Kernel::F32Padded => (Outcome::Pass, true),
-        Kernel::F32 => match errors + tally.tied_wrong + tally.tied_missed + differing {
-            0 => (Outcome::Pass, false),
-            n => (Outcome::Off(n as f64), false),
-        },
+    let must = match kernel {
+        Kernel::F64 => errors + differing,
+        Kernel::F32Padded => tally.missed + tally.tied_missed + differing,
+        Kernel::F32 => 0,
+    };
+    let off = match kernel {
+        Kernel::F64 | Kernel::F32Padded => 0,
+        Kernel::F32 => errors + tally.tied_wrong + tally.tied_missed + differing,
+    };
+    match (must, off) {
+        (0, 0) => Outcome::Pass,
+        (0, off) => Outcome::Off(off as f64),
+        _ => Outcome::Failed,
     }
 }
 
