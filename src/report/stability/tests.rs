@@ -75,12 +75,13 @@ fn bounds_of_rare_events() {
 fn random_cases_are_added_up() {
     let run = parts();
     let table = tables::random(&run);
-    // Three kernels, two shapes, two families: of all scenes and of each of two.
-    assert_eq!(table.rows.len(), 12 * 3);
+    // Three kernels, two shapes, two families; in a table of their own, of each of two scenes.
+    assert_eq!(table.rows.len(), 12);
+    assert_eq!(tables::random_by_scene(&run).rows.len(), 12 * 2);
     let aimed = &table.rows[5];
-    assert_eq!(aimed[..4], ["all", "f32", "box", "aimed"].map(named));
+    assert_eq!(aimed[..3], ["f32", "box", "aimed"].map(named));
     let counts = [2_000_000, 1_000_000, 12, 0, 4000, 1600, 600].map(Cell::Count);
-    assert_eq!(aimed[4..11], counts);
+    assert_eq!(aimed[3..10], counts);
     let ties = tables::ties(&run);
     assert_eq!(ties.rows.len(), 1);
     assert_eq!(ties.rows[0][3..5], [2, 1].map(Cell::Count));
@@ -159,5 +160,5 @@ fn files_are_those_of_the_parts() {
         4
     );
     let tables = write_tables(&run(parts), &dir.path().join("tables")).unwrap();
-    assert_eq!(tables.len(), 5 * 3);
+    assert_eq!(tables.len(), 6 * 3);
 }

@@ -1,4 +1,3 @@
-
 use super::*;
 use crate::cost::CostModel;
 use crate::kd::{Rules, StopRule, Strategy, build_objects};
