@@ -4,7 +4,7 @@
 use glam::{DVec3, Vec3};
 use sahlab::exact::line_box;
 use sahlab::geom::{Aabb, Line, Objects, Ray, Span, Sphere, Triangle};
-use sahlab::kd::narrow::{NarrowTree, Refusal, narrow_line, narrow_triangles, resolution};
+use sahlab::kd::narrow::{NarrowTree, Refusal, fitness, narrow_line, narrow_triangles, resolution};
 use sahlab::kd::traverse;
 use sahlab::kd::{Counting, Mode, NodeKind, Planes, Probe, Stack, Strategy, Tracing, Tree};
 use sahlab::rays::SurfaceLines;
@@ -212,4 +212,64 @@ fn what_cannot_be_rounded_is_refused() {
         radius: 1.0,
     });
     assert_eq!(narrow_triangles(&objects), Err(Refusal::NoTriangles(1)));
+}
+
+#[test]
+fn scales_whose_products_leave_f32_are_refused() {
+    let soup = moved(0.0).0;
+    let scaled = |exponent: i32| {
+        let factor = 2f64.powi(exponent);
+        let corners = |t: &Triangle| Triangle(t.0.map(|p| factor * p));
+        let triangles: Vec<Triangle> = soup.iter().map(corners).collect();
+        let bounds: Vec<Aabb> = triangles.iter().map(Triangle::bounds).collect();
+        let tree = common::tree(&bounds, Strategy::Sah, "objects:2:16");
+        (triangles, tree)
+    };
+    // Hits of the triangles by lines through their centres, as the tree's boxes are not asked.
+    let hits = |exponent: i32| {
+        let objects = Objects {
+            triangles: scaled(exponent).0,
+            ..Objects::default()
+        };
+        let narrow = narrow_triangles(&objects).unwrap();
+        let hit = |t: &&Triangle<Vec3>| {
+            let middle = (t.0[0] + t.0[1] + t.0[2]) / 3.0;
+            let line = Line::new(middle, Vec3::new(0.48, 0.6, 0.64));
+            t.intersect(&Ray::new(line, Span::FULL)).is_some()
+        };
+        narrow.iter().filter(hit).count()
+    };
+    let all = hits(0);
+    assert!(all > 290, "{all}");
+    for exponent in [-30, 30] {
+        assert!(NarrowTree::of(&scaled(exponent).1).is_ok());
+        assert_eq!(hits(exponent), all);
+    }
+    for exponent in [-100, -42, 42, 100] {
+        let refusal = NarrowTree::of(&scaled(exponent).1).unwrap_err();
+        assert!(matches!(refusal, Refusal::OutOfRange { .. }), "{refusal:?}");
+        let message = refusal.to_string();
+        assert!(
+            message.contains("scale the scene by a power of two"),
+            "{message}"
+        );
+        assert!(message.len() < 300, "{message}");
+    }
+    for exponent in [-100, 100] {
+        assert!(hits(exponent) < all / 10, "{}", hits(exponent));
+    }
+    // Beyond f32 itself, and below its smallest number, where f32 is coarse too.
+    let cube = |side: f64| fitness(&Aabb::new(DVec3::ZERO, DVec3::splat(side)));
+    assert_eq!(cube(1e200), Err(Refusal::NotFinite(1e200)));
+    assert!(matches!(cube(1e-200), Err(Refusal::OutOfRange { .. })));
+    // What is small and far away is first to be centred.
+    let far = Aabb::new(DVec3::splat(1e20), DVec3::splat(1e20 + 1e8));
+    let refusal = fitness(&far).unwrap_err();
+    assert!(
+        matches!(refusal, Refusal::TooCoarse { .. }) && refusal.to_string().len() < 300,
+        "{refusal}"
+    );
+    let slow = Line::new(DVec3::ZERO, DVec3::new(1e-150, 0.0, 0.0));
+    let message = narrow_line(&slow).unwrap_err().to_string();
+    assert!(message.contains("[1e-150, 0e0, 0e0]"), "{message}");
 }

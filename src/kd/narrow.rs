@@ -2,7 +2,8 @@
 //!
 //! Rounding keeps order: a plane stays inside its node's box, a triangle's rounded corners stay inside the rounded boxes of the
 //! leaves that hold it. But what lies nearer together than f32 numbers do falls together. [`resolution`] tells how fine they are
-//! for a scene; a tree for which they are too coarse is refused. Only triangles have a test in f32.
+//! for a scene, [`fitness`] whether they do: a tree for which they are too coarse, or whose lengths have products beyond their range,
+//! is refused. Only triangles have a test in f32.
 
 use glam::{DVec3, Vec3};
 use thiserror::Error;
@@ -16,6 +17,14 @@ pub const WARN_BELOW: f64 = 16_384.0;
 
 /// Resolution below which a tree is refused.
 pub const REFUSE_BELOW: f64 = 256.0;
+
+/// Coordinates above this are refused. The triangle test multiplies two lengths, for t a third: those of 2^40 give up to 2^120, and
+/// f32 ends at 2^128.
+const FARTHEST: f64 = (1u64 << 40) as f64;
+
+/// Boxes all of whose sides are below this are refused: products of three such lengths are below 2^-120, and the numbers of f32
+/// lose their digits below 2^-126.
+const SMALLEST: f64 = 1.0 / FARTHEST;
 
 const LEAF: u32 = 3;
 
@@ -76,13 +85,25 @@ pub enum Refusal {
     /// Neighbouring f32 numbers are too far apart for the scene.
     #[error(
         "single precision is too coarse here: the longest side of the box is {resolution:.1} steps of f32 at its farthest \
-         coordinate, at least {REFUSE_BELOW} are wanted; subtract the centre of the box, {centre}, from all coordinates, or take f64"
+         coordinate, at least {REFUSE_BELOW} are wanted; subtract the centre of the box, {centre}, from all coordinates, or take f64",
+        centre = short(centre)
     )]
     TooCoarse {
         /// [`resolution`] of the root's box.
         resolution: f64,
         /// What to subtract.
         centre: DVec3,
+    },
+    /// Products of the scene's lengths leave the range of f32.
+    #[error(
+        "products of lengths leave single precision here: the longest side of the box is {longest:e}, its farthest coordinate \
+         {farthest:e}, and they must be at least {SMALLEST:e} and at most {FARTHEST:e}; scale the scene by a power of two, or take f64"
+    )]
+    OutOfRange {
+        /// The longest side of the root's box.
+        longest: f64,
+        /// The largest absolute value of its coordinates.
+        farthest: f64,
     },
     /// A coordinate is beyond the range of f32.
     #[error(
@@ -96,13 +117,21 @@ pub enum Refusal {
     )]
     TooLarge(u32),
     /// All parts of a direction are too small for f32.
-    #[error("the direction {0} vanishes in single precision; give it unit length, or take f64")]
+    #[error(
+        "the direction {direction} vanishes in single precision; give it unit length, or take f64",
+        direction = short(.0)
+    )]
     NoDirection(DVec3),
     /// Only triangles have a test in single precision.
     #[error(
         "{0} of the objects are no triangles, and only triangles have a test in single precision; take f64"
     )]
     NoTriangles(usize),
+}
+
+/// A point, in few digits whatever its size.
+fn short(p: &DVec3) -> String {
+    format!("[{:e}, {:e}, {:e}]", p.x, p.y, p.z)
 }
 
 /// Single precision is coarse for the scene, but not refused.
@@ -127,7 +156,7 @@ impl std::fmt::Display for Warning {
 ///
 /// A box of side 1 around the origin has 2^24; moved by 1,000 along each axis 2^14, by 10^5 2^7. 0 beyond the range of f32.
 pub fn resolution(world: &Aabb) -> f64 {
-    let farthest = world.lo.abs().max(world.hi.abs()).max_element() as f32;
+    let farthest = farthest(world) as f32;
     let step = farthest.next_up() - farthest;
     if !step.is_finite() {
         return 0.0;
@@ -135,17 +164,35 @@ pub fn resolution(world: &Aabb) -> f64 {
     world.extent().max_element() / f64::from(step)
 }
 
+/// The largest absolute value of a box's coordinates.
+fn farthest(world: &Aabb) -> f64 {
+    world.lo.abs().max(world.hi.abs()).max_element()
+}
+
+/// Whether single precision does for a scene of this box, be it with a warning; or why it does not.
+pub fn fitness(world: &Aabb) -> Result<Option<Warning>, Refusal> {
+    let (resolution, longest) = (resolution(world), world.extent().max_element());
+    let farthest = farthest(world);
+    if farthest > f64::from(f32::MAX) {
+        return Err(Refusal::NotFinite(farthest));
+    }
+    // A tiny box at the origin may be coarse, as f32 numbers get no finer than 2^-149: centring it would not help.
+    let tiny = 0.0 < longest && longest < SMALLEST;
+    if resolution < REFUSE_BELOW && !tiny {
+        let centre = world.centre();
+        return Err(Refusal::TooCoarse { resolution, centre });
+    }
+    if tiny || farthest > FARTHEST {
+        return Err(Refusal::OutOfRange { longest, farthest });
+    }
+    Ok((resolution < WARN_BELOW).then_some(Warning { resolution }))
+}
+
 impl NarrowTree {
     /// The tree in single precision, and whether to be wary of it; or why it would be useless.
     pub fn of(tree: &Tree) -> Result<(Self, Option<Warning>), Refusal> {
-        let resolution = resolution(&tree.world);
-        let narrow = Self::however_coarse(tree)?;
-        if resolution < REFUSE_BELOW {
-            let centre = tree.world.centre();
-            return Err(Refusal::TooCoarse { resolution, centre });
-        }
-        let warning = (resolution < WARN_BELOW).then_some(Warning { resolution });
-        Ok((narrow, warning))
+        let warning = fitness(&tree.world)?;
+        Ok((Self::however_coarse(tree)?, warning))
     }
 
     /// As [`of`](Self::of), for whoever wants to know what would come of it: only what cannot be stored is refused.
