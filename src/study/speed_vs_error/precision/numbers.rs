@@ -4,7 +4,7 @@ use glam::{DVec3, Vec3};
 
 use crate::geom::{Aabb, Line, Triangle, Vector};
 use crate::kd::Planes;
-use crate::rays::{SurfaceLines, Uniforms};
+use crate::rays::{Purpose, SurfaceLines, Uniforms};
 
 /// Points whose parts are exact as `f64`.
 pub trait Exact: Vector {
@@ -63,7 +63,7 @@ impl<T: Planes<Vector: Exact>> Subject<'_, T> {
     /// Lines from the origins of those of `random` to, in turn, an edge and a corner of a node's box, an edge and a corner of a
     /// triangle, in the kernel's own arithmetic. One that starts at its aim keeps its direction.
     pub fn aimed(&self, random: &[Line<T::Vector>], seed: u64) -> Vec<Line<T::Vector>> {
-        let mut uniforms = Uniforms::starting_at(seed, 0);
+        let mut uniforms = Uniforms::of_replicate(seed, Purpose::Pairs, 0, 0);
         let aim = |(i, line): (usize, &Line<T::Vector>)| {
             let [which, along, corner, axis] = uniforms.next4();
             let of = |count: usize| (which * count as f64) as usize;
