@@ -4,14 +4,10 @@ use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
 
-use rand::SeedableRng;
-use rand::rngs::ChaCha8Rng;
-use rand::seq::SliceRandom;
-
 use crate::geom::{Line, Ray, Real, Span};
 use crate::kd::{Mode, NoProbe, Planes, Stack, Work, traverse};
 use crate::study::records::PassTiming;
-use crate::study::timing::{CHUNK, Timing, apart, blank};
+use crate::study::timing::{CHUNK, Minima, Timing, interleaved};
 
 use super::numbers::Subject;
 
@@ -26,7 +22,7 @@ pub struct Pass<'a> {
     units: u64,
     lines: usize,
     run: Box<dyn FnMut(Range<usize>) + 'a>,
-    best: [Vec<f64>; 2],
+    best: Minima,
 }
 
 /// A kernel's two passes: every node that lines meet (a unit is a visit), and the nearest hits of rays from the same origins (a unit
@@ -76,7 +72,7 @@ pub fn passes<'a, M: Mode, T: Planes>(
         units,
         lines: lines.len(),
         run,
-        best: [const { Vec::new() }; 2],
+        best: Minima::new(lines.len().div_ceil(CHUNK)),
     };
     [
         pass("visit", work.inner + work.leaves, Box::new(visit)),
@@ -86,43 +82,23 @@ pub fn passes<'a, M: Mode, T: Planes>(
 
 /// Time all passes in rounds of a fresh random order. Gives rows without the names of their cell.
 pub fn seconds(mut passes: Vec<Pass<'_>>, rounds: u32, seed: u64) -> Vec<PassTiming> {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    let mut order: Vec<usize> = (0..passes.len()).collect();
-    for round in 0..rounds {
-        order.shuffle(&mut random);
-        for &i in &order {
-            let Pass {
-                lines, run, best, ..
-            } = &mut passes[i];
-            let best = &mut best[round as usize % 2];
-            best.resize(lines.div_ceil(CHUNK), f64::INFINITY);
-            for (c, least) in best.iter_mut().enumerate() {
-                let started = Instant::now();
-                run(c * CHUNK..(c * CHUNK + CHUNK).min(*lines));
-                *least = least.min(started.elapsed().as_secs_f64());
-            }
-        }
-    }
+    interleaved(&mut passes, rounds, seed, Pass::once, || ());
     let timing = Timing {
         rounds,
         builds: rounds,
         pass_s: f64::INFINITY,
     };
-    let row = |Pass {
-                   what, units, best, ..
-               }: Pass<'_>| {
-        let [a, b] = &best;
-        let [half_a_s, half_b_s] = [a, b].map(|half| half.iter().sum::<f64>());
-        PassTiming {
-            what,
-            units,
-            timed_units: units,
-            seconds: a.iter().zip(b).map(|(a, b)| a.min(*b)).sum(),
-            half_a_s,
-            half_b_s,
-            disturbed: apart(half_a_s, half_b_s),
-            ..blank(timing, false)
-        }
-    };
+    let row = |pass: Pass<'_>| pass.best.row(pass.what, pass.units, timing);
     passes.into_iter().map(row).collect()
+}
+
+impl Pass<'_> {
+    /// Go once through the lines.
+    fn once(&mut self, half: usize) {
+        for chunk in 0..self.lines.div_ceil(CHUNK) {
+            let started = Instant::now();
+            (self.run)(chunk * CHUNK..(chunk * CHUNK + CHUNK).min(self.lines));
+            self.best.note(half, chunk, started.elapsed().as_secs_f64());
+        }
+    }
 }
