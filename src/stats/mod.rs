@@ -37,7 +37,7 @@ pub use inverse::{chi_square_quantile, f_quantile};
 pub use moments::ScoreMoments;
 pub use multiple::holm;
 pub use normal_equations::Normal;
-pub use poisson::poisson_interval;
+pub use poisson::clustered_interval;
 pub use quantile::{median, quantile, quantile_of_sorted};
 pub use rank::{Pairs, Taken, concordant, kendall_tau_b, spearman_rho, take_least};
 pub use regression::{Fit, RegressionError, least_squares, weighted_least_squares};

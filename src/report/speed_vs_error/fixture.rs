@@ -162,6 +162,7 @@ fn precision(run: &mut SpeedVsError, scene: &str) {
                     wrong_visits: wrong / 2,
                     missed_visits: 0,
                     tied_visits: wrong - wrong / 2,
+                    tied_missed_visits: 0,
                     visits_per_1e9: rate(n),
                     visits_per_1e9_lo: rate(lo),
                     visits_per_1e9_hi: rate(hi),

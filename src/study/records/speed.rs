@@ -118,13 +118,15 @@ pub struct PrecisionRecord {
     pub missed_visits: u64,
     /// Nodes visited or missed wrongly by less: the ends of the line's exact interval lie within 8 ulp.
     pub tied_visits: u64,
+    /// Those of them that were missed.
+    pub tied_missed_visits: u64,
     /// Wrong and missed visits, ties included, per 10^9 visits.
     pub visits_per_1e9: Option<f64>,
-    /// Lower end of its 95 % interval.
+    /// Lower end of its 95 % interval, by the errors of each line.
     pub visits_per_1e9_lo: Option<f64>,
     /// Upper end of its 95 % interval.
     pub visits_per_1e9_hi: Option<f64>,
-    /// Tests of a line against a triangle.
+    /// Triangles of the leaves that a line meets or was taken to, each once a line; hit if its test says so in a leaf visited.
     pub tests: u64,
     /// Triangles taken for hit that the line misses, by more than 8 ulp.
     pub wrong_hits: u64,

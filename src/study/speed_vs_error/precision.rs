@@ -2,33 +2,33 @@
 
 mod judge;
 mod numbers;
+mod rate;
 mod seconds;
+mod verdicts;
 
 use glam::DVec3;
 
 use crate::geom::{Aabb, Line, Objects, Triangle};
-use crate::kd::narrow::{NarrowTree, REFUSE_BELOW, WARN_BELOW, narrow_triangles, resolution};
+use crate::kd::narrow::{NarrowTree, fitness, narrow_triangles, resolution};
 use crate::kd::{Counting, Mode, Planes, Tracing, Tree, build};
 use crate::rays::SurfaceLines;
-use crate::stats::poisson_interval;
 use crate::study::Watcher;
 use crate::study::identity::line_seed;
 use crate::study::kernel::Kernel;
-use crate::study::records::{PassTiming, PrecisionRecord, Verdict};
+use crate::study::records::{PassTiming, PrecisionRecord};
 
-use super::asked::{Precision, SpeedVsError};
+use super::asked::Precision;
 use super::{Found, Piece};
-use judge::{Errors, Judged, judge};
+use judge::{Judged, judge};
 use numbers::{Exact, Subject};
+use rate::Rate;
 use seconds::{Pass, passes, seconds};
-
-/// Level of the intervals of rates.
-const LEVEL: f64 = 0.95;
+pub use verdicts::verdicts;
 
 /// Fewest lines expected to hit, and to miss, a node that `max_z` looks at: below, z is far from normal.
 const FEWEST: f64 = 25.0;
 
-/// Lines that are judged and timed where the tree is refused: it has collapsed, nearly every comparison is a tie, and lines visit it
+/// Lines that are judged and timed where the tree is refused: most often it has collapsed, nearly every comparison is a tie, and lines visit it
 /// in large part.
 const OF_REFUSED: usize = 1 << 8;
 
@@ -174,7 +174,7 @@ impl<'a> Place<'a> {
             }
         };
         let score: Vec<f64> = p.iter().map(add).collect();
-        let refused = kernel != Kernel::F64 && resolution(&self.tree.world) < REFUSE_BELOW;
+        let refused = kernel != Kernel::F64 && fitness(&self.tree.world).is_err();
         let (lines, enough) = if refused {
             let few = &lines[..OF_REFUSED.min(lines.len())];
             let visits: u64 = judge::<M, T>(subject, few, 0, &score).hits.iter().sum();
@@ -208,10 +208,10 @@ impl<'a> Place<'a> {
         p: &[f64],
     ) -> PrecisionRecord {
         let resolution = (kernel != Kernel::F64).then(|| resolution(&self.tree.world));
-        let verdict = match resolution {
-            Some(steps) if steps < REFUSE_BELOW => "refused",
-            Some(steps) if steps < WARN_BELOW => "warned",
-            _ => "clean",
+        let verdict = match (kernel, fitness(&self.tree.world)) {
+            (Kernel::F64, _) | (_, Ok(None)) => "clean",
+            (_, Ok(Some(_))) => "warned",
+            (_, Err(_)) => "refused",
         };
         let n = lines as f64;
         let mean = judged.scores[0] / n;
@@ -231,14 +231,15 @@ impl<'a> Place<'a> {
             visits: judged.visits.judged,
             wrong_visits: judged.visits.wrong,
             missed_visits: judged.visits.missed,
-            tied_visits: judged.visits.tied,
+            tied_visits: judged.visits.tied(),
+            tied_missed_visits: judged.visits.tied_missed,
             visits_per_1e9: visits.map(|r| r.rate),
             visits_per_1e9_lo: visits.map(|r| r.lo),
             visits_per_1e9_hi: visits.map(|r| r.hi),
             tests: judged.tests.judged,
             wrong_hits: judged.tests.wrong,
             missed_hits: judged.tests.missed,
-            tied_hits: judged.tests.tied,
+            tied_hits: judged.tests.tied(),
             hits_per_1e9: hits.map(|r| r.rate),
             hits_per_1e9_lo: hits.map(|r| r.lo),
             hits_per_1e9_hi: hits.map(|r| r.hi),
@@ -258,63 +259,5 @@ fn largest_z(hits: &[u64], p: &[f64], n: f64) -> Option<f64> {
     z.reduce(f64::max)
 }
 
-/// Errors per 10^9, with the exact interval of a Poisson count.
-#[derive(Clone, Copy)]
-struct Rate {
-    rate: f64,
-    lo: f64,
-    hi: f64,
-}
-
-impl Rate {
-    fn of(errors: &Errors) -> Option<Self> {
-        let scale = 1e9 / errors.judged as f64;
-        let [lo, hi] = poisson_interval(errors.all(), LEVEL).map(|mean| scale * mean);
-        (errors.judged > 0).then(|| Self {
-            rate: scale * errors.all() as f64,
-            lo,
-            hi,
-        })
-    }
-}
-
-/// What came of the expectations: f64 errs at ties alone, a padded kernel misses no node.
-pub fn verdicts(asked: &SpeedVsError, found: &[Found]) -> Vec<Verdict> {
-    let kernels = asked.precision.as_ref().map_or(&[][..], |p| &p.kernels);
-    let rows = || found.iter().flat_map(|f| &f.precision);
-    let of = |kernel: Kernel, value: fn(&PrecisionRecord) -> u64| -> u64 {
-        rows()
-            .filter(|r| r.kernel == kernel.name())
-            .map(value)
-            .sum()
-    };
-    let mut all = Vec::new();
-    if kernels.contains(&Kernel::F64) {
-        let wrong = of(Kernel::F64, |r| r.wrong_visits + r.missed_visits);
-        let hits = of(Kernel::F64, |r| r.wrong_hits + r.missed_hits);
-        all.push(Verdict {
-            name: "f64-exact".into(),
-            held: wrong == 0 && hits == 0,
-            message: format!(
-                "f64 against exact integers: {wrong} of {} visits and {hits} of {} triangle tests wrong by more than 8 ulp; {} and \
-                 {} at ties",
-                of(Kernel::F64, |r| r.visits),
-                of(Kernel::F64, |r| r.tests),
-                of(Kernel::F64, |r| r.tied_visits),
-                of(Kernel::F64, |r| r.tied_hits),
-            ),
-        });
-    }
-    if kernels.contains(&Kernel::F32Padded) {
-        let missed = of(Kernel::F32Padded, |r| r.missed_visits);
-        all.push(Verdict {
-            name: "padded".into(),
-            held: missed == 0,
-            message: format!(
-                "f32, padded: {missed} of {} visits missed by more than 8 ulp",
-                of(Kernel::F32Padded, |r| r.visits)
-            ),
-        });
-    }
-    all
-}
+#[cfg(test)]
+mod tests;
