@@ -30,10 +30,10 @@ const FEWEST: f64 = 25.0;
 
 /// Lines that are judged and timed where the tree is refused: most often it has collapsed, nearly every comparison is a tie, and lines visit it
 /// in large part.
-const OF_REFUSED: usize = 1 << 8;
+const OF_REFUSED: usize = 1 << 6;
 
 /// Visits of such a tree that its slope takes, if fewer than of all lines.
-const MOST_VISITS: f64 = (1u64 << 28) as f64;
+const MOST_VISITS: f64 = (1u64 << 25) as f64;
 
 /// Units of progress of a scene: lines judged.
 pub fn units(asked: &Precision) -> u64 {
