@@ -39,21 +39,21 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
         return Finding::failed(expected, fault);
     }
     // Unpadded f32 promises nothing but to refuse what is too coarse for it.
-    let demanded = kernel != Kernel::F32 || case.too_coarse;
+    let demanded = kernel != Kernel::F32 || case.refused_in_f32;
     let in_kernel = match KernelTree::of(kernel, &tree) {
-        Ok(_) if case.too_coarse && kernel != Kernel::F64 => {
-            return Finding::failed("refused as too coarse", "taken");
+        Ok(_) if case.refused_in_f32 && kernel != Kernel::F64 => {
+            return Finding::failed("refused in single precision", "taken");
         }
         Ok(in_kernel) => in_kernel,
         Err(refusal) => {
             return Finding {
-                expected: if case.too_coarse {
-                    "refused as too coarse".into()
+                expected: if case.refused_in_f32 {
+                    "refused in single precision".into()
                 } else {
                     expected
                 },
                 measured: refusal.to_string(),
-                outcome: if case.too_coarse {
+                outcome: if case.refused_in_f32 {
                     Outcome::Pass
                 } else {
                     Outcome::Refused
