@@ -34,15 +34,26 @@ enum Line<'r> {
     Case(&'r str, &'r str),
 }
 
-/// The pages: cases without a tree, then those with one.
+impl Line<'_> {
+    /// Whether a row is of the line's case.
+    fn shows(&self, row: &CaseRecord) -> bool {
+        matches!(self, Line::Case(group, case) if row.group == *group && row.case == *case)
+    }
+}
+
+/// The pages: cases with a tree, which say most, then those without one.
 pub fn figures(run: &Stability, summary: &Summary) -> Vec<(String, Figure)> {
     let mut pages: Vec<(Vec<Line>, Vec<&CaseRecord>)> = Vec::new();
-    for of_trees in [false, true] {
+    for of_trees in [true, false] {
         let own = run.cases.iter();
         let own = own.filter(|row| row.strategy.is_empty() != of_trees);
         let rows: Vec<&CaseRecord> = own.collect();
         let lines = paged(&rows).into_iter();
-        pages.extend(lines.map(|lines| (lines, rows.clone())));
+        pages.extend(lines.map(|lines| {
+            let shown = |row: &&&CaseRecord| lines.iter().any(|line| line.shows(row));
+            let own = rows.iter().filter(shown).copied().collect();
+            (lines, own)
+        }));
     }
     let of = pages.len();
     let page = |(i, (lines, rows)): (usize, &(Vec<Line>, Vec<&CaseRecord>))| {
