@@ -23,6 +23,8 @@ const ROW: f64 = 11.0;
 const ABOVE: f64 = 24.0;
 const BETWEEN: f64 = 46.0;
 const WIDEST: f64 = 230.0;
+/// Least width of a band, of the axis's.
+const THINNEST: f64 = 0.03;
 const BAND: plotters::style::RGBAColor = faded(SKY, 0.4);
 
 /// Checks of the same kind share a scale.
@@ -85,7 +87,7 @@ pub fn figure(run: &SpeedVsError, summary: &Summary) -> Option<Figure> {
     let runs = distinct_runs(&run.coverage);
     let caption = format!(
         "Share of the independent runs that count ({runs} of a check, on {}). Band: where that share lies if the check is right, as \
-         the run's expectations have it; triangle: the level that is wanted. Behind a check its level (of the stopping rule: the error asked for), the sampler and the lines of a run. Checks of uniform p-values are one test each of all runs. Seed {}.",
+         the run's expectations have it; triangle: the level that is wanted. Behind a check its level (of the stopping rule: the error asked for), the sampler and the lines of a run. Checks of uniform p-values are one test each of all runs: the band is 0, drawn wider to be seen. Seed {}.",
         scenes.join(", "),
         summary.seed
     );
@@ -176,7 +178,10 @@ fn panel(pen: &Pen, family: Family, rows: &[&CoverageRecord], frame: Frame) {
     for (i, row) in rows.iter().enumerate() {
         let middle = -(i as f64 + 0.5);
         let [share, least, most] = shares(row);
-        panel.rectangle((least, middle - 0.38), (most, middle + 0.38), BAND);
+        // A band of a single share, as of one test of all runs, is still seen.
+        let seen = (0.5 * (THINNEST * (high - low) - (most - least))).max(0.0);
+        let (left, right) = ((least - seen).max(low), (most + seen).min(high));
+        panel.rectangle((left, middle - 0.38), (right, middle + 0.38), BAND);
         panel.line(&[(low, middle - 0.5), (high, middle - 0.5)], THIN, 0.4);
         if let Some(level) = level(row) {
             panel.mark((level, middle + 0.42), LEVEL.marker, 1.7, LEVEL.colour);

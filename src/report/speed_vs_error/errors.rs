@@ -3,6 +3,7 @@
 use plotters::style::text_anchor::{HPos, VPos};
 
 use super::SpeedVsError;
+use super::times::Of;
 use crate::report::Figure;
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::Pen;
@@ -141,10 +142,11 @@ fn caption(
     };
     let strategies = distinct(run.errors.iter().map(|row| row.strategy.as_str()));
     let across = if timed {
-        "CPU seconds of one replicate, its lines' generation included, on one thread"
+        "seconds of one replicate on one thread, its lines' generation included"
     } else {
         "lines of a replicate, as nothing was timed"
     };
+    let disturbed = run.disturbed(Of::Samplers);
     let reference = if floors {
         " Of lines:nearest the truth is a long reference, whose own standard error is the dashed line."
     } else {
@@ -153,7 +155,7 @@ fn caption(
     format!(
         "Relative root mean square error against {across}; {} lines, {} independent replicates; bars: 95 % intervals. Single \
          nodes: square root of the mean over the nodes of MSE/(p(1 − p)), 1/√N for N independent lines. The truth of lines is known \
-         from areas.{reference} Beside each panel: the exponent of 1/N fitted to its curve, with its 95 % interval. Strategy {}, stop \
+         from areas.{reference} Beside each panel: the exponent of 1/N fitted to its curve, with its 95 % interval.{disturbed} Strategy {}, stop \
          {}. Seed {}.{which}",
         range(|row| row.lines),
         range(|row| row.replicates),
@@ -202,7 +204,7 @@ impl Curves<'_> {
         let (low, high) = extent(all).unwrap_or((1e-3, 1.0));
         let label = match (lowest, self.timed) {
             (false, _) => "",
-            (true, true) => "CPU seconds of a replicate",
+            (true, true) => "seconds of a replicate, one thread",
             (true, false) => "lines of a replicate",
         };
         let (left, right) = whole_decades(left / 1.3, 1.3 * right);

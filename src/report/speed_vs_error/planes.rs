@@ -1,6 +1,7 @@
 //! Cost of a tree above the exact search's against the seconds it takes to build, a panel a scene.
 
 use super::SpeedVsError;
+use super::times::Of;
 use crate::report::Figure;
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::Pen;
@@ -95,10 +96,11 @@ fn figure(run: &SpeedVsError, scenes: &[&str], which: &str, summary: &Summary) -
         [only] => format!(" All trees are of objects {only}."),
         _ => String::new(),
     };
+    let disturbed = run.disturbed(Of::Builds);
     let caption = format!(
         "Predicted cost C of a tree above that of the exact search without clipping, against the seconds of its build, the least of \
          several, on one thread. Numbers beside marks, where there is room: candidate planes or bins of an axis. Faded: dominated, as some other search \
-         is built no slower and gives a tree no dearer.{only} Stop {}. Seed {}.{which}",
+         is built no slower and gives a tree no dearer.{only}{disturbed} Stop {}. Seed {}.{which}",
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );

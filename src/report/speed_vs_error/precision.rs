@@ -3,16 +3,17 @@
 mod one;
 
 use super::SpeedVsError;
+use super::times::Of;
 use crate::report::Figure;
 use crate::report::axis::extent;
 use crate::report::figure::{LEFT, WIDTH};
 use crate::report::grid::{Grid, page_name, part};
 use crate::report::legend::Key;
 use crate::report::number::grouped;
-use crate::report::palette::{INK, Look};
+use crate::report::palette::{INK, Look, faded};
 use crate::report::series::distinct;
 use crate::study::records::{PrecisionRecord, Summary};
-use one::{One, REFUSED, WARNED};
+use one::{FAINT, One, REFUSED, WARNED};
 
 const TIME: &str = "What does precision cost? Wrong answers of each kernel against its time";
 const OFFSET: &str = "How far from the origin does each kernel hold?";
@@ -24,9 +25,8 @@ const GRID: Grid = Grid {
     size: (138.0, 84.0),
     pitch: (158.0, 104.0),
 };
-/// Between two panels; widest panel with it.
+/// Between two panels.
 const GAP: f64 = 20.0;
-const WIDEST: f64 = 240.0;
 
 /// What a panel shows of a row: a number and the ends of its interval.
 pub type Shown = fn(&PrecisionRecord) -> Option<[f64; 3]>;
@@ -37,8 +37,8 @@ pub struct Quantity {
     pub label: &'static str,
     /// What is shown of a row.
     pub of: Shown,
-    /// Whether it is a rate of wrong answers, which aimed lines have too.
-    pub rate: bool,
+    /// Of a rate of wrong answers, which aimed lines have too: those that are no ties, of how many.
+    pub beyond: Option<fn(&PrecisionRecord) -> [u64; 2]>,
 }
 
 const VISITS: Quantity = Quantity {
@@ -50,17 +50,17 @@ const VISITS: Quantity = Quantity {
             r.visits_per_1e9_hi?,
         ])
     },
-    rate: true,
+    beyond: Some(|r| [r.wrong_visits + r.missed_visits, r.visits]),
 };
 const HITS: Quantity = Quantity {
     label: "wrong hits per 10⁹",
     of: |r| Some([r.hits_per_1e9?, r.hits_per_1e9_lo?, r.hits_per_1e9_hi?]),
-    rate: true,
+    beyond: Some(|r| [r.wrong_hits + r.missed_hits, r.tests]),
 };
 const LARGEST: Quantity = Quantity {
     label: "max |z|",
     of: |r| r.max_z.map(|z| [z, z, z]),
-    rate: false,
+    beyond: None,
 };
 const SLOPE: Quantity = Quantity {
     label: "|slope − 1|",
@@ -68,7 +68,7 @@ const SLOPE: Quantity = Quantity {
         let (error, half) = (r.slope_error?.abs(), 1.96 * r.slope_se.unwrap_or(0.0));
         Some([error, (error - half).max(0.0), error + half])
     },
-    rate: false,
+    beyond: None,
 };
 
 /// `precision` and `precision-offset`, three scenes a page; none where nothing is to be drawn.
@@ -143,11 +143,16 @@ fn figure(
         colour: INK,
         ..Look::of(0)
     };
-    keys.push((Key::Mark(look), "random lines".to_owned()));
-    keys.push((
-        Key::Ring(look),
-        "lines aimed at edges and corners".to_owned(),
-    ));
+    let faint = faded(INK, FAINT);
+    keys.extend([
+        (Key::Mark(look), "random lines".to_owned()),
+        (
+            Key::Ring(look),
+            "lines aimed at edges and corners".to_owned(),
+        ),
+        (Key::Line(faint), "ties included, random".to_owned()),
+        (Key::Dashes(faint), "aimed".to_owned()),
+    ]);
     if !timed {
         keys.push((Key::Area(WARNED), "f32 warned of".to_owned()));
         keys.push((Key::Area(REFUSED), "f32 refused".to_owned()));
@@ -156,25 +161,31 @@ fn figure(
     let (title, own) = if timed {
         (
             TIME,
-            "nanoseconds of a node's visit by random lines that nothing stops; scenes not moved",
+            "nanoseconds of a node's visit on one thread, by random lines that nothing stops; scenes not moved",
         )
     } else {
         (
             OFFSET,
             "how far the scene was moved along x, y and z over the longest side of its box; max |z|, slope: of random lines; bars of \
-             the slope: 95 % of sampling",
+             the slope: 95 % of sampling; shaded where f32's steps are too coarse, as they grow with the offset",
         )
     };
+    let disturbed = if timed {
+        run.disturbed(Of::Kernels)
+    } else {
+        String::new()
+    };
     let caption = format!(
-        "Visits (hits): nodes (triangles) taken for met that the line misses, or missed that it meets, by exact arithmetic, ties \
-         included, per 10⁹ nodes met (triangles tested), with 95 % intervals; on the lower edge: none. Against {own}. Up to {} lines \
-         of each family. Stop {}. Seed {}.{which}",
+        "Visits (hits): nodes (triangles) taken for met that the line misses, or missed that it meets, by exact arithmetic on \
+         the kernel's own numbers, per 10⁹ nodes met (triangles tested). Marks: by more than 8 ulp; faint lines: ties included, with 95 % \
+         intervals; on the lower edge: none; marks of kernels stand a little beside each other. f32 is judged on its rounded inputs: what \
+         their rounding does shows in slope and max |z| alone. Against {own}. Up to {} lines of each family.{disturbed} Stop {}. Seed {}.{which}",
         grouped(lines.1 as u64),
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );
     // Fewer scenes have wider panels.
-    let pitch = ((WIDTH - LEFT - GRID.left + GAP) / scenes.len() as f64).min(WIDEST);
+    let pitch = (WIDTH - LEFT - GRID.left + GAP) / scenes.len() as f64;
     let grid = Grid {
         columns: scenes.len(),
         size: (pitch - GAP, GRID.size.1),

@@ -3,7 +3,8 @@
 use super::SpeedVsError;
 use super::coverage::kept;
 use super::planes::{Timed, told};
-use super::tables::{at_most, efficiency};
+use super::tables::{at_most, efficiency, is_exact};
+use super::times::Of;
 use crate::report::means::{arithmetic, geometric};
 use crate::report::number::{counted, grouped, significant};
 use crate::report::series::distinct;
@@ -39,8 +40,12 @@ pub fn samplers(run: &SpeedVsError) -> Table {
         let own = most
             .iter()
             .filter(|row| (&*row.rays, &*row.sampler, &*row.quantity) == (rays, sampler, "C"));
-        let values: Vec<f64> = own.filter_map(|row| of(row)).filter(|v| *v > 0.0).collect();
-        known(geometric(&values), ratio)
+        let (exact, others): (Vec<&ErrorRecord>, Vec<_>) = own.partition(|row| is_exact(row));
+        if others.is_empty() && !exact.is_empty() {
+            return text("exact");
+        }
+        let values = others.into_iter().filter_map(of).filter(|v| *v > 0.0);
+        known(geometric(&values.collect::<Vec<_>>()), short)
     };
     let far = |row: &&EnoughRecord| (row.wanted / WANTED).ln().abs();
     let wanted = run.enough.iter();
@@ -64,7 +69,7 @@ pub fn samplers(run: &SpeedVsError) -> Table {
             known(arithmetic(&exponents), |mean| Cell::Value(mean, 2)),
             mean("lines", sampler, &|row| efficiency(run, row)),
             known(enough, |row| Cell::Count(row.lines)),
-            known(enough.and_then(|row| run.enough_seconds(row)), ratio),
+            known(enough.and_then(|row| run.enough_seconds(row)), short),
             mean("lines:nearest", sampler, &|row| row.gain),
             mean("lines:nearest", sampler, &|row| efficiency(run, row)),
         ]
@@ -72,9 +77,12 @@ pub fn samplers(run: &SpeedVsError) -> Table {
     let percent = wanted.map_or("–".to_owned(), |wanted| significant(100.0 * wanted, 1));
     let samplers = distinct(run.errors.iter().map(|row| row.sampler.as_str()));
     Table {
-        caption: "Samplers at their most lines, estimating C, means over the scenes. Gain: how many times fewer lines reach the error of \
-                  random ones; efficiency: how many times sooner; lines that an error takes, where it takes most."
-            .to_owned(),
+        caption: format!(
+            "Samplers at their most lines, estimating C, means over the scenes where they are not exact (RMSE below 10⁻¹²). Gain: how \
+             many times fewer lines reach the error of random ones; efficiency: how many times sooner; lines that an error takes, where it \
+             takes most, and their seconds on one thread.{}",
+            run.disturbed(Of::Samplers)
+        ),
         columns: vec![
             Column::left("sampler", "sampler"),
             Column::right("gain", "gain"),
@@ -90,12 +98,14 @@ pub fn samplers(run: &SpeedVsError) -> Table {
     }
 }
 
-/// A large number without a fraction, its digits in groups.
+/// A large number without a fraction, its digits in groups; a very large one by its power of ten.
 fn short(value: f64) -> Cell {
     if value < 1000.0 {
         ratio(value)
-    } else {
+    } else if value < 1e7 {
         Cell::Count(value.round() as u64)
+    } else {
+        text(&significant(value, 2))
     }
 }
 
@@ -116,11 +126,8 @@ pub fn precision(run: &SpeedVsError) -> Table {
                 [wrong, all] => short(1e9 * wrong as f64 / all as f64),
             }
         };
-        let visits = |r: &PrecisionRecord| {
-            let wrong = r.wrong_visits + r.missed_visits + r.tied_visits;
-            [wrong, r.visits]
-        };
-        let hits = |r: &PrecisionRecord| [r.wrong_hits + r.missed_hits + r.tied_hits, r.tests];
+        let visits = |r: &PrecisionRecord| [r.tied_visits, r.visits];
+        let hits = |r: &PrecisionRecord| [r.tied_hits, r.tests];
         let beyond =
             |r: &PrecisionRecord| r.wrong_visits + r.missed_visits + r.wrong_hits + r.missed_hits;
         let ns = |unit: &str| {
@@ -147,20 +154,23 @@ pub fn precision(run: &SpeedVsError) -> Table {
     };
     let kernels = distinct(run.precision.iter().map(|row| row.kernel.as_str()));
     Table {
-        caption: "Kernels: how many visits and hits are wrong by more than 8 ulp; per 10⁹, ties included, visits and hits of random lines, \
-                  beside them of lines aimed at edges and corners; offsets from which on they are warned of and refused."
-            .to_owned(),
+        caption: format!(
+            "Kernels. Wrong: visits and hits, of random and aimed lines, that are wrong by more than 8 ulp. At ties: those wrong by less, \
+             per 10⁹, of random lines and of lines aimed at edges and corners. Offsets from which on f32 is warned of and refused. Times \
+             on one thread.{}",
+            run.disturbed(Of::Kernels)
+        ),
         columns: vec![
             Column::left("kernel", "kernel"),
             Column::right("ns a visit", "visit_ns"),
             Column::right("ns a ray", "ray_ns"),
             Column::right("wrong", "wrong"),
-            Column::right("visits", "visits_random"),
-            Column::right("aimed", "visits_aimed"),
-            Column::right("hits", "hits_random"),
-            Column::right("aimed", "hits_aimed"),
-            Column::right("warned from", "warned_from"),
-            Column::right("refused from", "refused_from"),
+            Column::right("tied visits", "tied_visits_random"),
+            Column::right("aimed", "tied_visits_aimed"),
+            Column::right("tied hits", "tied_hits_random"),
+            Column::right("aimed", "tied_hits_aimed"),
+            Column::right("warned", "warned_from"),
+            Column::right("refused", "refused_from"),
         ],
         keys: 1,
         rows: kernels.into_iter().map(row).collect(),
@@ -217,6 +227,7 @@ pub fn searches(run: &SpeedVsError, most: usize) -> Option<Table> {
     });
     let rows: Vec<_> = rows.collect();
     let of = counted(scenes.len() as u64, "scene");
+    let disturbed = run.disturbed(Of::Builds);
     let others = match left_out {
         0 => String::new(),
         n => format!(" Faster ones with dearer trees: {n} more."),
@@ -224,7 +235,7 @@ pub fn searches(run: &SpeedVsError, most: usize) -> Option<Table> {
     (!rows.is_empty()).then(|| Table {
         caption: format!(
             "Plane searches that no other betters in both, cost C and time of a build, against the exact search without clipping; \
-             geometric means over {of}.{others}"
+             geometric means over {of}.{others}{disturbed}"
         ),
         columns: vec![
             Column::left("search", "strategy"),

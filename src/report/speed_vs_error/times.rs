@@ -1,7 +1,19 @@
 //! Seconds of what the other files tell the errors of.
 
 use super::SpeedVsError;
+use crate::report::number::{counted, grouped};
 use crate::study::records::{EnoughRecord, ErrorRecord, PassTiming, PlaneRecord, PrecisionRecord};
+
+/// What was timed.
+#[derive(Clone, Copy, Debug)]
+pub enum Of {
+    /// Sets of lines.
+    Samplers,
+    /// Kernels.
+    Kernels,
+    /// Builds of plane searches.
+    Builds,
+}
 
 impl SpeedVsError {
     /// The latest time of one thing done with one tree: rows of earlier runs stand before it.
@@ -10,10 +22,58 @@ impl SpeedVsError {
         self.timings.iter().rev().find(own)
     }
 
-    /// CPU seconds of one replicate: its lines made, followed through the tree and counted.
-    pub(super) fn replicate_seconds(&self, row: &ErrorRecord) -> Option<f64> {
+    fn replicate_timing(&self, row: &ErrorRecord) -> Option<&PassTiming> {
         let what = format!("{} {} {}", row.sampler, row.rays, row.lines);
-        let timing = self.timing(&row.cell, &what)?;
+        self.timing(&row.cell, &what)
+    }
+
+    fn kernel_timing(&self, row: &PrecisionRecord, unit: &str) -> Option<&PassTiming> {
+        let what = format!("{} {unit} {:e}", row.kernel, row.offset);
+        self.timing(&row.cell, &what)
+    }
+
+    fn build_timing(&self, row: &PlaneRecord) -> Option<&PassTiming> {
+        self.timing(&row.cell, "build")
+    }
+
+    /// How many times of a part were disturbed, as a sentence of a caption; empty where nothing was timed.
+    pub(super) fn disturbed(&self, of: Of) -> String {
+        let timings: Vec<&PassTiming> = match of {
+            Of::Samplers => {
+                let rows = self.errors.iter();
+                // Every quantity of a replicate comes from the same lines.
+                let same =
+                    |a: &PassTiming, b: &PassTiming| (&a.cell, &a.what) == (&b.cell, &b.what);
+                let mut all: Vec<_> = rows.filter_map(|row| self.replicate_timing(row)).collect();
+                all.sort_by(|a, b| (&a.cell, &a.what).cmp(&(&b.cell, &b.what)));
+                all.dedup_by(|a, b| same(a, b));
+                all
+            }
+            Of::Kernels => {
+                let rows = self.precision.iter().filter(|row| row.family == "random");
+                let both = |row| ["visit", "ray"].map(|unit| self.kernel_timing(row, unit));
+                rows.flat_map(both).flatten().collect()
+            }
+            Of::Builds => {
+                let rows = self.planes.iter();
+                rows.filter_map(|row| self.build_timing(row)).collect()
+            }
+        };
+        let disturbed = timings.iter().filter(|timing| timing.disturbed).count();
+        if timings.is_empty() {
+            return String::new();
+        }
+        let of = counted(timings.len() as u64, "time");
+        let (disturbed, were) = (
+            grouped(disturbed as u64),
+            if disturbed == 1 { "was" } else { "were" },
+        );
+        format!(" Of {of} {disturbed} {were} disturbed (halves more than 3 % apart).")
+    }
+
+    /// Seconds of one replicate on one thread: its lines made, followed through the tree and counted.
+    pub(super) fn replicate_seconds(&self, row: &ErrorRecord) -> Option<f64> {
+        let timing = self.replicate_timing(row)?;
         Some(timing.seconds / timing.units as f64 * row.lines as f64).filter(|s| *s > 0.0)
     }
 
@@ -36,8 +96,7 @@ impl SpeedVsError {
 
     /// Nanoseconds of a `visit` of a node by lines that nothing stops, or of a `ray` up to its nearest hit, by a kernel.
     pub(super) fn kernel_ns(&self, row: &PrecisionRecord, unit: &str) -> Option<f64> {
-        let what = format!("{} {unit} {:e}", row.kernel, row.offset);
-        let timing = self.timing(&row.cell, &what)?;
+        let timing = self.kernel_timing(row, unit)?;
         Some(1e9 * timing.seconds / timing.units as f64)
     }
 
@@ -48,6 +107,6 @@ impl SpeedVsError {
 
     /// Seconds of building a tree.
     pub(super) fn build_seconds(&self, row: &PlaneRecord) -> Option<f64> {
-        Some(self.timing(&row.cell, "build")?.seconds).filter(|s| *s > 0.0)
+        Some(self.build_timing(row)?.seconds).filter(|s| *s > 0.0)
     }
 }

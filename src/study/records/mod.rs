@@ -25,6 +25,7 @@ pub use calibration::{
 };
 pub use speed::{
     CoverageRecord, EnoughRecord, ErrorRecord, ExponentRecord, PlaneRecord, PrecisionRecord,
+    REFUSE_BELOW, WARN_BELOW,
 };
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use stability::{CaseRecord, MetamorphicRecord, RandomRecord, TieRecord};

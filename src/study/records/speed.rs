@@ -1,5 +1,7 @@
 //! What a run of kind `speed-vs-error` leaves behind besides `timings.csv`.
 
+pub use crate::kd::narrow::{REFUSE_BELOW, WARN_BELOW};
+
 use serde::{Deserialize, Serialize};
 
 /// How far the counts of so many lines are off, by one sampler: over independent replicates. A row of `errors.csv`.

@@ -6,12 +6,16 @@ use crate::report::axis::{Axis, Tick, extent};
 use crate::report::figure::Pen;
 use crate::report::palette::{Look, SKY, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};
-use crate::report::series::distinct;
 use crate::report::text::{MEDIUM, fit};
-use crate::study::records::PrecisionRecord;
+use crate::study::records::{PrecisionRecord, REFUSE_BELOW, WARN_BELOW};
 use plotters::style::RGBAColor;
 
-const RADIUS: f64 = 2.4;
+const RADIUS: f64 = 2.2;
+/// From the marks of one kernel to those of the next.
+const BESIDE: f64 = 3.0;
+/// Opacity of what includes ties.
+pub const FAINT: f64 = 0.35;
+const FAMILIES: [&str; 2] = ["random", "aimed"];
 /// Offsets at which f32 numbers are warned of.
 pub const WARNED: RGBAColor = faded(SKY, 0.28);
 /// Offsets at which they are refused.
@@ -41,7 +45,7 @@ impl<'r> One<'r> {
         let drawn = |row: &&PrecisionRecord| {
             row.scene == scene
                 && (!self.timed || Some(row.offset) == first)
-                && (self.quantity.rate || row.family == "random")
+                && (self.quantity.beyond.is_some() || row.family == "random")
         };
         self.run.precision.iter().filter(drawn).collect()
     }
@@ -49,7 +53,7 @@ impl<'r> One<'r> {
     /// Ends of the vertical axis.
     fn ends(&self) -> (f64, f64) {
         let rows = self.scenes.iter().flat_map(|scene| self.rows(scene));
-        let all = rows.filter_map(self.quantity.of).flatten();
+        let all = rows.flat_map(|row| self.shown(row).into_iter().flatten());
         let (low, high) = extent(all.filter(|value| *value > 0.0)).unwrap_or((1.0, 10.0));
         (low / 3.0, 2.0 * high.max(1.01 * low))
     }
@@ -98,69 +102,148 @@ impl<'r> One<'r> {
             panel.heading(&heading, frame.left - 2.0, 4.0);
         }
         if !self.timed {
-            self.zones(&mut panel, zero, (low, high));
+            self.zones(&mut panel, (low, high));
         }
+        let curves = self.curves(zero);
+        // Faint first: what is no tie stands before it.
+        for curve in &curves {
+            self.faint(&mut panel, curve, low);
+        }
+        for curve in &curves {
+            self.marks(&mut panel, curve, low);
+        }
+    }
+
+    /// What is marked of a row, and the ends of its bar; of rates the errors that are no ties, without one.
+    fn marked(&self, row: &PrecisionRecord) -> Option<[f64; 3]> {
+        match self.quantity.beyond.map(|of| of(row)) {
+            None => (self.quantity.of)(row),
+            Some([_, 0]) => None,
+            Some([wrong, of]) => Some([1e9 * wrong as f64 / of as f64; 3]),
+        }
+    }
+
+    /// All numbers that are drawn of a row.
+    fn shown(&self, row: &PrecisionRecord) -> [Option<f64>; 6] {
+        let both = [(self.quantity.of)(row), self.marked(row)];
+        let all = both.map(|values| values.map_or([None; 3], |v| v.map(Some)));
+        [
+            all[0][0], all[0][1], all[0][2], all[1][0], all[1][1], all[1][2],
+        ]
+    }
+
+    /// The rows of every kernel and family of the scene, each from left to right.
+    fn curves(&self, zero: f64) -> Vec<Curve<'r>> {
         let rows = self.rows(self.scene);
-        for family in distinct(rows.iter().map(|row| row.family.as_str())) {
+        let mut all = Vec::new();
+        for (j, family) in FAMILIES.into_iter().enumerate() {
             for (i, kernel) in self.kernels.iter().enumerate() {
                 let own = rows
                     .iter()
                     .filter(|row| row.family == family && row.kernel == *kernel);
-                let mut points: Vec<_> = own
-                    .filter_map(|row| {
-                        let across = match self.timed {
-                            true => self.run.visit_ns(row)?,
-                            false => row.offset.max(zero),
-                        };
-                        Some((across, (self.quantity.of)(row)?))
-                    })
-                    .collect();
-                points.sort_by(|a, b| a.0.total_cmp(&b.0));
-                let look = Look::of(i);
-                let curve: Vec<_> = points.iter().map(|(x, v)| (*x, v[0].max(low))).collect();
-                let faint = faded(look.colour, 0.7);
-                match family {
-                    "random" => panel.line(&curve, faint, 0.8),
-                    _ => panel.dashes(&curve, faint, 0.7),
-                }
-                for (x, [value, lo, hi]) in points {
-                    panel.line(&[(x, lo.max(low)), (x, hi.max(low))], look.colour, 0.7);
-                    let at = (x, value.max(low));
-                    match family {
-                        "random" => panel.mark(at, look.marker, RADIUS, look.colour),
-                        _ => panel.ring(at, look.marker, RADIUS, look.colour),
-                    }
-                }
+                let placed = own.filter_map(|row| match self.timed {
+                    true => Some((self.run.visit_ns(row)?, *row)),
+                    false => Some((row.offset.max(zero), *row)),
+                });
+                let mut rows: Vec<_> = placed.collect();
+                rows.sort_by(|a, b| a.0.total_cmp(&b.0));
+                // Against time kernels stand apart by themselves.
+                let place = if self.timed { j } else { 2 * i + j };
+                let places = if self.timed {
+                    2
+                } else {
+                    2 * self.kernels.len()
+                };
+                all.push(Curve {
+                    rows,
+                    look: Look::of(i),
+                    aimed: j == 1,
+                    beside: BESIDE * (place as f64 - 0.5 * (places - 1) as f64),
+                });
+            }
+        }
+        all
+    }
+
+    /// A rate with its ties.
+    fn faint(&self, panel: &mut Panel, curve: &Curve, low: f64) {
+        if self.quantity.beyond.is_none() {
+            return;
+        }
+        let colour = faded(curve.look.colour, FAINT);
+        let points = curve.points(panel, self.quantity.of);
+        let line: Vec<_> = points.iter().map(|(x, v)| (*x, v[0].max(low))).collect();
+        if curve.aimed {
+            panel.dashes(&line, colour, 0.7);
+        } else {
+            panel.line(&line, colour, 0.7);
+        }
+        for (x, [_, lo, hi]) in points {
+            panel.line(&[(x, lo.max(low)), (x, hi.max(low))], colour, 0.7);
+        }
+    }
+
+    /// What is marked, joined by a line.
+    fn marks(&self, panel: &mut Panel, curve: &Curve, low: f64) {
+        let Look { colour, marker } = curve.look;
+        let points = curve.points(panel, |row| self.marked(row));
+        let line: Vec<_> = points.iter().map(|(x, v)| (*x, v[0].max(low))).collect();
+        panel.line(&line, faded(colour, 0.7), 0.8);
+        for (x, [value, lo, hi]) in points {
+            panel.line(&[(x, lo.max(low)), (x, hi.max(low))], colour, 0.7);
+            let at = (x, value.max(low));
+            if curve.aimed {
+                panel.ring(at, marker, RADIUS, colour);
+            } else {
+                panel.mark(at, marker, RADIUS, colour);
             }
         }
     }
 
-    /// Shades the offsets at which f32 numbers are warned of or refused, as far as half way to the next.
-    fn zones(&self, panel: &mut Panel, zero: f64, (low, high): (f64, f64)) {
-        let all: Vec<f64> = offsets(self.run, self.scene);
-        let place = |i: usize| all[i].max(zero);
-        let between = |i: usize, j: usize| (place(i) * place(j)).sqrt();
-        for (i, offset) in all.iter().enumerate() {
-            let mut own = self.run.precision.iter();
-            let verdict = own.find(|r| {
-                r.scene == self.scene && r.offset == *offset && r.kernel.starts_with("f32")
-            });
-            let colour = match verdict.map(|row| row.verdict.as_str()) {
-                Some("warned") => WARNED,
-                Some("refused") => REFUSED,
-                _ => continue,
-            };
-            let from = if i == 0 {
-                zero / 2.0
-            } else {
-                between(i - 1, i)
-            };
-            let to = if i + 1 == all.len() {
-                2.0 * place(i)
-            } else {
-                between(i, i + 1)
-            };
-            panel.rectangle((from, low), (to, high), colour);
-        }
+    /// Shades the offsets from which on f32 is warned of, and refused.
+    fn zones(&self, panel: &mut Panel, (low, high): (f64, f64)) {
+        let end = panel.x.value(1.0);
+        let refused = self.crossing(REFUSE_BELOW).unwrap_or(end).min(end);
+        let warned = self.crossing(WARN_BELOW).unwrap_or(end).min(end);
+        panel.rectangle((warned, low), (refused, high), WARNED);
+        panel.rectangle((refused, low), (end, high), REFUSED);
+    }
+
+    /// The offset at which `resolution` falls below a limit, from the row that is nearest to it: it falls as 1/offset.
+    fn crossing(&self, limit: f64) -> Option<f64> {
+        let own = self.run.precision.iter().filter(|r| r.scene == self.scene);
+        let known = own.filter_map(|r| Some((r.offset, r.resolution?)));
+        let moved = known.filter(|(offset, resolution)| *offset > 0.0 && *resolution > 0.0);
+        let far = |resolution: f64| (resolution / limit).ln().abs();
+        let nearest = moved.min_by(|a, b| far(a.1).total_cmp(&far(b.1)))?;
+        Some(nearest.0 * nearest.1 / limit)
+    }
+}
+
+/// What is drawn of a kernel and a family of lines.
+struct Curve<'r> {
+    /// Where each row stands.
+    rows: Vec<(f64, &'r PrecisionRecord)>,
+    look: Look,
+    aimed: bool,
+    /// How far to the right of there it is drawn, in points, so that marks of other kernels are seen.
+    beside: f64,
+}
+
+impl Curve<'_> {
+    /// Where it is drawn, and what is shown of it.
+    fn points(
+        &self,
+        panel: &Panel,
+        of: impl Fn(&PrecisionRecord) -> Option<[f64; 3]>,
+    ) -> Vec<(f64, [f64; 3])> {
+        let width = panel.frame.right - panel.frame.left;
+        let place = |x: f64| {
+            let at = panel.x.at(x)?;
+            let share = (at - panel.x.lo) / (panel.x.hi - panel.x.lo);
+            Some(panel.x.value(share + self.beside / width))
+        };
+        let point = |(x, row): &(f64, &PrecisionRecord)| Some((place(*x)?, of(row)?));
+        self.rows.iter().filter_map(point).collect()
     }
 }

@@ -8,4 +8,4 @@ mod samplers;
 pub use coverage::coverage;
 pub use planes::{planes, times_planes};
 pub use precision::{precision, times_precision};
-pub use samplers::{at_most, efficiency, enough, samplers, times_enough, times_samplers};
+pub use samplers::{at_most, efficiency, enough, is_exact, samplers, times_enough, times_samplers};

@@ -2,6 +2,7 @@
 
 use super::super::SpeedVsError;
 use super::super::planes::{Timed, told};
+use super::super::times::Of;
 use crate::report::series::distinct;
 use crate::report::shown::{change, known, ratio, text};
 use crate::report::table::{Cell, Column, Table};
@@ -79,10 +80,12 @@ pub fn times_planes(run: &SpeedVsError) -> Option<Table> {
     };
     let rows: Vec<_> = scenes.into_iter().flat_map(of_scene).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: "Seconds of the builds, the least of several on one thread, beside the cost of the trees above that of the exact \
+        caption: format!(
+            "Seconds of the builds, the least of several on one thread, beside the cost of the trees above that of the exact \
                   search without clipping. Dominated: another search of the scene is built no slower and gives a tree no dearer; of \
-                  several the one with the cheapest tree is named."
-            .to_owned(),
+                  several the one with the cheapest tree is named.{}",
+            run.disturbed(Of::Builds)
+        ),
         columns,
         keys: 3,
         rows,

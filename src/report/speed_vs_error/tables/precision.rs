@@ -1,6 +1,7 @@
 //! What kernels get wrong, and their time.
 
 use super::super::SpeedVsError;
+use super::super::times::Of;
 use crate::report::number::digits_for;
 use crate::report::shown::{known, ratio, text};
 use crate::report::table::{Cell, Column, Table};
@@ -20,6 +21,7 @@ pub fn precision(run: &SpeedVsError) -> Table {
         Column::right("wrong", "wrong_visits"),
         Column::right("missed", "missed_visits"),
         Column::right("tied", "tied_visits"),
+        Column::right("missed", "tied_missed_visits"),
         Column::right("per 10⁹", "visits_per_1e9"),
         Column::right("least", "visits_per_1e9_lo"),
         Column::right("most", "visits_per_1e9_hi"),
@@ -49,6 +51,7 @@ pub fn precision(run: &SpeedVsError) -> Table {
             Cell::Count(r.wrong_visits),
             Cell::Count(r.missed_visits),
             Cell::Count(r.tied_visits),
+            Cell::Count(r.tied_missed_visits),
             rate(r.visits_per_1e9),
             rate(r.visits_per_1e9_lo),
             rate(r.visits_per_1e9_hi),
@@ -66,10 +69,10 @@ pub fn precision(run: &SpeedVsError) -> Table {
     };
     Table {
         caption: "Nodes visited and triangles hit by a kernel against exact arithmetic: taken for met though missed (wrong), for missed \
-                  though met (missed), either within 8 ulp of a tie (tied); all three per 10⁹ visits or tests, with the 95 % interval. \
+                  though met (missed), either within 8 ulp of a tie (tied, of visits those missed beside them); all per 10⁹ visits or tests, with the 95 % interval. \
                   Offset: how far the scene was moved along x, y and z, over the longest side of its box; extent/ulp: that side over the \
                   spacing of f32 numbers at the farthest coordinate. Slope and largest |z| of a node are of random lines; ± is half of the \
-                  99 % interval."
+                  99 % interval. f32 is judged on its own rounded inputs: what their rounding does shows in slope and |z| alone."
             .to_owned(),
         columns,
         keys: 4,
@@ -110,9 +113,11 @@ pub fn times_precision(run: &SpeedVsError) -> Option<Table> {
     let random = run.precision.iter().filter(|row| row.family == "random");
     let rows: Vec<_> = random.filter_map(row).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: "Time of random lines by each kernel, on one thread: of a visit of a node where nothing stops the line, of a ray up to \
-                  its nearest hit. Of refused trees, which have collapsed, only the first lines were timed."
-            .to_owned(),
+        caption: format!(
+            "Time of random lines by each kernel, on one thread: of a visit of a node where nothing stops the line, of a ray up to \
+                  its nearest hit. Of refused trees, which have collapsed, only the first lines were timed.{}",
+            run.disturbed(Of::Kernels)
+        ),
         columns,
         keys: 3,
         rows,

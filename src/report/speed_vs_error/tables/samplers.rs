@@ -1,6 +1,7 @@
 //! How near samplers of lines come to the truth, and in what time.
 
 use super::super::SpeedVsError;
+use super::super::times::Of;
 use crate::report::shown::{known, ratio, text};
 use crate::report::table::{Cell, Column, Table};
 use crate::study::records::{EnoughRecord, ErrorRecord};
@@ -28,6 +29,23 @@ pub fn efficiency(run: &SpeedVsError, row: &ErrorRecord) -> Option<f64> {
     let most = at_most(run);
     let random = most.iter().find(random)?;
     Some(of(row)? / of(random)?).filter(|ratio| ratio.is_finite())
+}
+
+/// Root mean square errors below this are of rounding alone: the estimate is exact.
+const EXACT: f64 = 1e-12;
+
+/// Whether an estimate is exact, so that a gain would be of rounding errors.
+pub fn is_exact(row: &ErrorRecord) -> bool {
+    row.rmse < EXACT
+}
+
+/// What a row gains over random lines.
+fn gain(row: &ErrorRecord, value: Option<f64>) -> Cell {
+    if is_exact(row) {
+        text("exact")
+    } else {
+        known(value, ratio)
+    }
 }
 
 /// Errors at the most lines, and how they fall with their number.
@@ -63,9 +81,9 @@ pub fn samplers(run: &SpeedVsError) -> Table {
             Cell::Count(r.replicates),
             ratio(100.0 * r.rmse),
             ratio(r.rmse * (r.lines as f64).sqrt()),
-            known(r.gain, ratio),
-            known(r.gain_lo, ratio),
-            known(r.gain_hi, ratio),
+            gain(r, r.gain),
+            gain(r, r.gain_lo),
+            gain(r, r.gain_hi),
             exponent(fit.map(|e| e.exponent)),
             exponent(fit.map(|e| e.exponent_lo)),
             exponent(fit.map(|e| e.exponent_hi)),
@@ -74,7 +92,7 @@ pub fn samplers(run: &SpeedVsError) -> Table {
     Table {
         caption: "Relative root mean square error of estimates from the most lines of each sampler, over independent replicates. RMSE·√N \
                   does not fall for independent lines; of nodes it is 1 for them. Gain: how many times fewer lines do than random ones, \
-                  by mean square errors. Exponent of 1/N fitted to all numbers of lines. Least, most: 95 % intervals."
+                  by mean square errors; exact: RMSE below 10⁻¹². Exponent of 1/N fitted to all numbers of lines. Least, most: 95 % intervals."
             .to_owned(),
         columns,
         keys: 4,
@@ -106,14 +124,16 @@ pub fn times_samplers(run: &SpeedVsError) -> Option<Table> {
             ratio(100.0 * r.rmse),
             ratio(1e9 * seconds / r.lines as f64),
             ratio(1e3 * seconds),
-            known(efficiency(run, r), ratio),
+            gain(r, efficiency(run, r)),
         ])
     };
     let rows: Vec<_> = at_most(run).into_iter().filter_map(row).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: "CPU time of the most lines of each sampler, their generation included, on one thread. Efficiency: 1/(MSE · time) over \
-                  that of random lines: how many times sooner the same error is reached."
-            .to_owned(),
+        caption: format!(
+            "Time of the most lines of each sampler on one thread, their generation included. Efficiency: 1/(MSE · time) over that of \
+             random lines: how many times sooner the same error is reached; exact: RMSE below 10⁻¹².{}",
+            run.disturbed(Of::Samplers)
+        ),
         columns,
         keys: 4,
         rows,
@@ -147,7 +167,10 @@ pub fn times_enough(run: &SpeedVsError) -> Option<Table> {
     };
     let rows: Vec<_> = run.enough.iter().filter_map(row).collect();
     (!rows.is_empty()).then(|| Table {
-        caption: format!("{ENOUGH}, and their CPU seconds on one thread."),
+        caption: format!(
+            "{ENOUGH}, and their seconds on one thread.{}",
+            run.disturbed(Of::Samplers)
+        ),
         columns: columns_of_enough(Column::right("seconds", "seconds")),
         keys: 4,
         rows,
