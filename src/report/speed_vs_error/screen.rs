@@ -78,9 +78,9 @@ pub fn samplers(run: &SpeedVsError) -> Table {
     let samplers = distinct(run.errors.iter().map(|row| row.sampler.as_str()));
     Table {
         caption: format!(
-            "Samplers at their most lines, estimating C, means over the scenes where they are not exact (RMSE below 10⁻¹²). Gain: how \
-             many times fewer lines reach the error of random ones; efficiency: how many times sooner; lines that an error takes, where it \
-             takes most, and their seconds on one thread.{}",
+            "Samplers at their most lines, estimating C, means over the scenes but where exact (RMSE below 10⁻¹²). Gain: how many \
+             times fewer lines reach the error of random ones; efficiency: times sooner; lines an error takes where it takes most, \
+             seconds on one thread.{}",
             run.disturbed(Of::Samplers)
         ),
         columns: vec![
@@ -155,9 +155,8 @@ pub fn precision(run: &SpeedVsError) -> Table {
     let kernels = distinct(run.precision.iter().map(|row| row.kernel.as_str()));
     Table {
         caption: format!(
-            "Kernels. Wrong: visits and hits, of random and aimed lines, that are wrong by more than 8 ulp. At ties: those wrong by less, \
-             per 10⁹, of random lines and of lines aimed at edges and corners. Offsets from which on f32 is warned of and refused. Times \
-             on one thread.{}",
+            "Kernels. Wrong by more than 8 ulp, visits and hits together; at ties, wrong by less, per 10⁹, of random lines, beside them \
+             of lines aimed at edges and corners; offsets from which on f32 is warned of and refused. Times on one thread.{}",
             run.disturbed(Of::Kernels)
         ),
         columns: vec![

@@ -227,3 +227,30 @@ fn pictures_of_the_fixture_are_written() {
     let files = write_plots(&run(parts()), dir.path()).unwrap();
     assert_eq!(files.len(), 2 * 5);
 }
+
+#[test]
+fn captions_tell_disturbed_times_and_exact_estimates_are_called_so() {
+    let mut odd = parts();
+    odd.timings
+        .iter_mut()
+        .filter(|timing| timing.what.starts_with("f32 ray"))
+        .for_each(|timing| timing.disturbed = true);
+    let caption = |table: crate::report::table::Table| table.caption;
+    let told = caption(tables::times_precision(&odd).unwrap());
+    assert!(told.ends_with(" 10 of 60 times."), "{told}");
+    let told = caption(tables::times_planes(&odd).unwrap());
+    assert!(told.ends_with(" 0 of 28 times."), "{told}");
+    let own = odd.errors.iter_mut().filter(|r| r.sampler == "conditional");
+    own.for_each(|row| row.rmse *= 1e-12);
+    let table = super::screen::samplers(&odd);
+    let cells = |sampler: &str| {
+        let name = Cell::Text(sampler.to_owned());
+        let row = table.rows.iter().find(|row| row[0] == name).unwrap();
+        [row[1].clone(), row[3].clone()]
+    };
+    assert_eq!(
+        cells("conditional"),
+        ["exact", "exact"].map(|t| Cell::Text(t.to_owned()))
+    );
+    assert!(matches!(cells("sobol"), [Cell::Value(..), Cell::Value(..)]));
+}

@@ -64,11 +64,10 @@ impl SpeedVsError {
             return String::new();
         }
         let of = counted(timings.len() as u64, "time");
-        let (disturbed, were) = (
-            grouped(disturbed as u64),
-            if disturbed == 1 { "was" } else { "were" },
-        );
-        format!(" Of {of} {disturbed} {were} disturbed (halves more than 3 % apart).")
+        format!(
+            " Disturbed, halves over 3 % apart: {} of {of}.",
+            grouped(disturbed as u64)
+        )
     }
 
     /// Seconds of one replicate on one thread: its lines made, followed through the tree and counted.
