@@ -11,6 +11,8 @@ use crate::study::records::{PrecisionRecord, REFUSE_BELOW, WARN_BELOW};
 use plotters::style::RGBAColor;
 
 const RADIUS: f64 = 2.2;
+/// Of what includes ties.
+const SMALL: f64 = 1.4;
 /// From the marks of one kernel to those of the next.
 const BESIDE: f64 = 3.0;
 /// Opacity of what includes ties.
@@ -178,8 +180,9 @@ impl<'r> One<'r> {
         } else {
             panel.line(&line, colour, 0.7);
         }
-        for (x, [_, lo, hi]) in points {
+        for (x, [value, lo, hi]) in points {
             panel.line(&[(x, lo.max(low)), (x, hi.max(low))], colour, 0.7);
+            panel.mark((x, value.max(low)), curve.look.marker, SMALL, colour);
         }
     }
 
