@@ -25,7 +25,7 @@ const WAVE: u64 = 256;
 const PIECE: u64 = 32;
 
 /// Ties told of each row.
-const TOLD: usize = 100;
+const TOLD: usize = 25;
 
 /// What lines are held against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
