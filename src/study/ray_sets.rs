@@ -177,7 +177,7 @@ impl Number {
     fn settle(
         &self,
         scene: &Scene,
-        trees: &[Tree],
+        trees: &[(Tree, Rare)],
         cost: CostModel,
         source: &SourceRays,
         ask: Ask,
@@ -186,9 +186,8 @@ impl Number {
             return self.rays;
         };
         let bounds = [self.rays.min(MOST_RAYS), MOST_RAYS];
-        let one = |tree: &Tree| {
-            let rare = Rare::of(tree, &predict(tree), cost);
-            needed(error, bounds, &rare, |i, stack| {
+        let one = |(tree, rare): &(Tree, Rare)| {
+            needed(error, bounds, rare, |i, stack| {
                 let mut work = Work::default();
                 let ray = source.cast(i).ray();
                 ask.hits(tree, &scene.objects, &ray, stack, &mut work);
@@ -200,8 +199,8 @@ impl Number {
     }
 }
 
-/// The rays of these sets in a scene; `rules` are of the trees they go through. Sets of traced rays are there only if the scene has a look, and if there is any ray
-/// of the kind.
+/// The rays of these sets in a scene; `rules` are of the trees they go through. Sets of traced rays are there only if the scene
+/// has a look, and if there is any ray of the kind.
 ///
 /// # Errors
 /// If the scene cannot have such rays.
@@ -214,10 +213,12 @@ pub fn gather(
 ) -> Result<Vec<Rays>, String> {
     // Only a wanted error asks for the trees beforehand.
     let asking = number.error.map_or(&[][..], |_| rules);
-    let trees: Vec<Tree> = asking
-        .iter()
-        .map(|rules| build_tree(scene, rules))
-        .collect();
+    let with_rare = |rules: &Rules| {
+        let tree = build_tree(scene, rules);
+        let rare = Rare::of(&tree, &predict(&tree), rules.cost);
+        (tree, rare)
+    };
+    let trees: Vec<(Tree, Rare)> = asking.iter().map(with_rare).collect();
     let cost = asking
         .first()
         .map_or(CostModel::WALD_HAVRAN, |rules| rules.cost);

@@ -4,6 +4,7 @@
 //! chunks in some rounds, and the least time of a chunk over all rounds is free of it. Every round visits all trees in a
 //! fresh random order, so that slow minutes are shared. Two half-sets of rounds tell how far the result can be believed.
 
+use std::collections::HashSet;
 use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
@@ -64,9 +65,7 @@ impl Timing {
             pass_s,
         } = *self;
         for (key, times) in [("timing.rounds", rounds), ("timing.builds", builds)] {
-            wrong_unless(times >= 2 && times % 2 == 0, key, || {
-                format!("{key} = {times}, but it must be even and at least 2, for two halves")
-            })?;
+            halves(key, times)?;
         }
         wrong_unless(pass_s > 0.0 && pass_s.is_finite(), "timing.pass_s", || {
             format!("timing.pass_s = {pass_s}, but it must be a number above 0")
@@ -365,23 +364,37 @@ pub fn apart(a: f64, b: f64) -> bool {
     (a - b).abs() > DISTURBED * a.min(b)
 }
 
+/// Whether what is done so many times has two halves.
+pub fn halves(key: &'static str, times: u32) -> Result<(), Wrong> {
+    wrong_unless(times >= 2 && times.is_multiple_of(2), key, || {
+        format!("{key} = {times}, but it must be even and at least 2, for two halves")
+    })
+}
+
 /// Put the rows of trees in place of older ones of the same trees; rows of other runs stay.
 pub fn keep<'a>(
     store: &Store,
-    trees: impl Iterator<Item = &'a CellPlan<'a>> + Clone,
+    trees: impl Iterator<Item = &'a CellPlan<'a>>,
     rows: Vec<Vec<PassTiming>>,
 ) -> Result<(), StoreError> {
-    let mut all: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    all.retain(|row| trees.clone().all(|tree| tree.id != row.cell));
-    for (tree, rows) in trees.zip(rows) {
-        all.extend(rows.into_iter().map(|row| PassTiming {
+    let named = trees.zip(rows).flat_map(|(tree, rows)| {
+        rows.into_iter().map(|row| PassTiming {
             cell: tree.id.clone(),
             scene: tree.scene.name.clone(),
             strategy: tree.rules.strategy.name(),
             stop: tree.rules.stop.to_string(),
             ..row
-        }));
-    }
+        })
+    });
+    keep_rows(store, named.collect())
+}
+
+/// Put rows, which name their cells, in place of older ones of the same cells; rows of other runs stay.
+pub fn keep_rows(store: &Store, rows: Vec<PassTiming>) -> Result<(), StoreError> {
+    let mut all: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
+    let cells: HashSet<&str> = rows.iter().map(|row| &*row.cell).collect();
+    all.retain(|old| !cells.contains(&*old.cell));
+    all.extend(rows);
     store.write_rows(TIMINGS, all)?;
     Ok(())
 }

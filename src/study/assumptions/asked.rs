@@ -105,13 +105,7 @@ impl Assumptions {
 
     /// The rules of every tree over a scene.
     pub(super) fn rules(&self, plan: &Plan) -> Vec<Rules> {
-        let rules = |&strategy: &Strategy| Rules {
-            strategy,
-            stop: self.stop,
-            cost: plan.cost,
-            clipped: self.clipped,
-        };
-        self.strategies.iter().map(rules).collect()
+        Rules::crossed(&[self.stop], &self.strategies, plan.cost, self.clipped)
     }
 
     /// How many rays.

@@ -7,6 +7,7 @@ use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
 use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
 use crate::study::ray_sets::{Number, RaysOf};
+use crate::study::timing::halves;
 
 /// The keys of this kind.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -92,16 +93,7 @@ impl CostVsWork {
         within("pixels", self.pixels.into(), MOST_PIXELS.into())?;
         within("timing.rays", self.timing.rays, MOST_RAYS)?;
         within("timing.work", self.timing.work, u64::MAX)?;
-        let rounds = self.timing.rounds;
-        wrong_unless(
-            rounds >= 2 && rounds.is_multiple_of(2),
-            "timing.rounds",
-            || {
-                format!(
-                    "timing.rounds = {rounds}, but it must be even and at least 2, for two halves"
-                )
-            },
-        )?;
+        halves("timing.rounds", self.timing.rounds)?;
         within("calibration.draws", self.calibration.draws.into(), 1 << 20)?;
         check_family(self.expect.family)?;
         let Expect {

@@ -5,6 +5,7 @@ use std::ops::RangeInclusive;
 use crate::kd::Strategy;
 use crate::study::lines::{FEWEST_LINES, check_error};
 use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::timing;
 
 use super::asked::{Coverage, Method, Planes, Precision, Samplers, SpeedVsError};
 
@@ -115,10 +116,8 @@ pub fn each_once<T: PartialEq + std::fmt::Debug>(
 
 /// Times of anything that is done again and again for two halves.
 fn halves(key: &'static str, times: u32) -> Result<(), Wrong> {
-    let even = (2..=MOST_TIMES).contains(&times) && times.is_multiple_of(2);
-    wrong_unless(even, key, || {
-        format!("{key} = {times}, but it must be even, for two halves, and 2 to {MOST_TIMES}")
-    })
+    timing::halves(key, times)?;
+    within(key, times, 2..=MOST_TIMES)
 }
 
 fn within<T: PartialOrd + std::fmt::Display>(

@@ -25,6 +25,7 @@ use super::records::{
 };
 use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError, TIMINGS};
+use super::timing::keep_rows;
 use super::{Plan, RunError, SCHEMA, Watcher};
 
 pub use asked::SpeedVsError;
@@ -170,7 +171,7 @@ pub(super) fn run(
             measure(asked, piece, watcher).map_err(|fault| RunError::Bug { place, fault })?;
         found.timed = found.timings.iter().map(|row| row.cell.clone()).collect();
         found.timed.dedup();
-        keep_seconds(store, &found.timings)?;
+        keep_rows(store, std::mem::take(&mut found.timings))?;
         store.save(&piece.id, &found)?;
         Ok(found)
     };
@@ -191,15 +192,6 @@ fn finished(store: &Store, piece: &Piece<'_>, times: &[PassTiming]) -> Option<Fo
         times.iter().any(row)
     };
     found.timed.iter().all(is_there).then_some(found)
-}
-
-/// Put rows of seconds in place of older ones of the same cells; rows of other runs stay.
-fn keep_seconds(store: &Store, rows: &[PassTiming]) -> Result<(), StoreError> {
-    let mut all: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    all.retain(|old| rows.iter().all(|row| row.cell != old.cell));
-    all.extend(rows.iter().cloned());
-    store.write_rows(TIMINGS, all)?;
-    Ok(())
 }
 
 /// Put the run's files together. The seconds are there already.
