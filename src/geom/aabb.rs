@@ -203,4 +203,16 @@ mod tests {
         let wide = UNIT.clip_conservative(&line, Span::FULL).expect("hit");
         assert!(exact.t1 < 0.0 && wide.t0 < exact.t0 && wide.t1 > exact.t1);
     }
+
+    /// A plane whose t overflows is beyond every other, padded or not: a box that begins there is missed, one that ends there is not.
+    #[test]
+    fn overflowing_planes_count_when_padded() {
+        let line = Line::new(DVec3::splat(-2.0), DVec3::new(0.5, 2.0, 1e-303));
+        let far = Aabb::new(DVec3::new(-9.0, -9.0, 1e16), DVec3::new(9.0, 9.0, 1e75));
+        let around = Aabb { lo: -far.hi, ..far };
+        for padding in [0.0, f64::PADDING] {
+            assert_eq!(far.clip_padded(&line, Span::FULL, padding), None);
+            assert!(around.clip_padded(&line, Span::FULL, padding).is_some());
+        }
+    }
 }

@@ -4,14 +4,18 @@ use glam::DVec3;
 
 use super::{Aabb, Axis, Real, Vector};
 
-/// What a plane's parameter is widened by: `padding * |t|`; nothing for no padding, even where t has overflowed.
+/// What a plane's parameter is widened by: `padding * |t|`; nothing for no padding, and never infinite: a t that has overflowed stays
+/// where it is, beyond all others.
 #[inline(always)]
 pub fn slack<T: Real>(padding: T, t: T) -> T {
-    // 0 * inf is NaN, which would pass over the plane.
+    // 0 * inf and inf - inf are NaN, which would pass over the plane.
+    let slack = padding * t.abs();
     if padding == T::ZERO {
         T::ZERO
+    } else if slack < T::MAX {
+        slack
     } else {
-        padding * t.abs()
+        T::MAX
     }
 }
 

@@ -22,6 +22,8 @@ pub trait Real:
     const ZERO: Self;
     /// 1.
     const ONE: Self;
+    /// The largest finite number.
+    const MAX: Self;
     /// +inf.
     const INFINITY: Self;
     /// -inf.
@@ -68,6 +70,7 @@ macro_rules! precision {
         impl Real for $real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
+            const MAX: Self = $real::MAX;
             const INFINITY: Self = $real::INFINITY;
             const NEG_INFINITY: Self = $real::NEG_INFINITY;
             const PADDING: Self = 6.0 * $real::EPSILON;
