@@ -58,11 +58,9 @@ pub(super) fn line_triangle(origin: DVec3, direction: DVec3, corners: &[DVec3; 3
     let [o, a, b, c] = scaled([origin, corners[0], corners[1], corners[2]]);
     let [a, b, c] = [a, b, c].map(|p| array::from_fn(|k| &p[k] - &o[k]));
     let [d] = scaled([direction]);
-    let edges = [(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| triple(&d, p, q));
+    let edges = [(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| edge(&d, p, q));
     let signs = edges.each_ref().map(|e| e.0.cmp(&IBig::ZERO));
-    let distances = edges
-        .each_ref()
-        .map(|(value, permanent)| units(value, permanent));
+    let distances = edges.each_ref().map(|(value, unit)| units(value, unit));
     let [positive, negative] =
         [Ordering::Greater, Ordering::Less].map(|sign| signs.contains(&sign));
     match (positive, negative) {
@@ -75,7 +73,7 @@ pub(super) fn line_triangle(origin: DVec3, direction: DVec3, corners: &[DVec3; 3
             ulps: 0.0,
         },
         _ => {
-            let height = triple(&a, &b, &c).0.cmp(&IBig::ZERO);
+            let height = dot(&a, &cross(&b, &c)).cmp(&IBig::ZERO);
             Crossing {
                 meeting: Meeting::Hit(if positive { height } else { height.reverse() }),
                 ulps: distances
@@ -87,16 +85,21 @@ pub(super) fn line_triangle(origin: DVec3, direction: DVec3, corners: &[DVec3; 3
     }
 }
 
-/// p.(q x r) and its permanent, the sum of the absolute values of its products.
-fn triple(p: &[IBig; 3], q: &[IBig; 3], r: &[IBig; 3]) -> (IBig, IBig) {
-    let (mut value, mut permanent) = (IBig::ZERO, IBig::ZERO);
-    for (k, [i, j]) in OTHERS.into_iter().enumerate() {
-        let plus = &p[k] * (&q[i] * &r[j]);
-        let minus = &p[k] * (&q[j] * &r[i]);
-        value += &plus - &minus;
-        permanent += plus.abs() + minus.abs();
-    }
-    (value, permanent)
+/// d.(p x q), and 2^52 of its units: see [`Crossing::ulps`].
+fn edge(d: &[IBig; 3], p: &[IBig; 3], q: &[IBig; 3]) -> (IBig, IBig) {
+    let [about_p, about_q] = [cross(d, p), cross(d, q)];
+    let value = dot(&about_p, q);
+    let reach = p.iter().chain(q).map(Abs::abs).max().unwrap_or_default();
+    let distances = about_p.iter().chain(&about_q).map(Abs::abs);
+    (value, reach * distances.sum::<IBig>())
+}
+
+fn dot(p: &[IBig; 3], q: &[IBig; 3]) -> IBig {
+    p.iter().zip(q).map(|(x, y)| x * y).sum()
+}
+
+fn cross(p: &[IBig; 3], q: &[IBig; 3]) -> [IBig; 3] {
+    OTHERS.map(|[i, j]| &p[i] * &q[j] - &p[j] * &q[i])
 }
 
 /// The vectors as integers, all times the same power of two.
@@ -131,7 +134,8 @@ fn significand_and_exponent(x: f64) -> (i64, i32) {
     (signed >> shift, exponent.max(1) - 1075 + shift as i32)
 }
 
-/// `part / whole` in units of 2^-52, for |part| at most a few times `whole`; 0 if both are.
+/// `part / whole` in units of 2^-52, for |part| at most a few times `whole` (an edge function is at most half, as |d.(B x C)| =
+/// |B.(C x d)| <= |B|_inf |C x d|_1, and likewise with B x d); 0 if both are.
 fn units(part: &IBig, whole: &IBig) -> f64 {
     if *part == IBig::ZERO {
         return 0.0;

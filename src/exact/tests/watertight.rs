@@ -1,0 +1,83 @@
+//! How near to a tie the kernels' watertight test of triangles (Woop, Benthin & Wald 2013) may err: less than 4 units.
+//!
+//! With d_z the direction's largest part and S_x = d_x / d_z it takes a corner B, relative to the line's origin, to x = B_x - S_x B_z
+//! and likewise y, and compares x_C y_B with y_C x_B. Let u be half a unit of the last place of 1, r and the unit
+//! 2 u r (|d x B|_1 + |d x C|_1) those of the edge (see [`Crossing::ulps`]), and L = |x_B| + |y_B| + |x_C| + |y_C|, so that |d_z| L is at
+//! most |d x B|_1 + |d x C|_1. To first order, and without underflow:
+//! - B_x is off by u of itself, S_x B_z by 3 u (S_x, B_z, the product), their difference by u: x is off by 4 u r + u |x|.
+//! - So the products' difference is off by 4 u r L, and by 3 u of each product. These are together at most r L, as |x| <= 2 r, and at
+//!   most L^2 / 4. The comparison itself has the right sign, or says equal.
+//!
+//! Where it errs at k units, 2 k u r L <= L^2 / 4, so that L >= 8 k u r. The second order, 2 (4 u r)^2, is then at most 2 / k units.
+//! In units the error is 2 + 1.5 min(1, L / (4 r)) + 16 u r / L, which is convex in L up to 4 r and falls beyond; so k is at most
+//! 2 + 2 / k at the least L, which makes k < 2.8, or 3.5 at L = 4 r. An edge function beyond has its sign in the kernel, and with them a hit
+//! or a miss beyond is seen as such; the triangle's own box, which the kernel takes larger, excludes no hit.
+
+use glam::Vec3;
+
+use super::aimed::pair;
+use super::*;
+use crate::geom::{Line, Ray, Span, Triangle, Vector};
+
+/// No wrong verdict lies as far from a tie.
+const BOUND: f64 = 4.0;
+
+const CASES: usize = 200_000;
+
+/// Whether the kernel's verdict is wrong, and the distance from a tie in the kernel's units.
+fn judged<V: Vector>(
+    [origin, direction, a, b, c]: [V; 5],
+    exact: impl Fn(V) -> DVec3,
+    epsilon: f64,
+) -> (bool, f64) {
+    let ray = Ray::new(Line::new(origin, direction), Span::FULL);
+    let said = Triangle([a, b, c]).intersect(&ray).is_some();
+    let corners = [a, b, c].map(&exact);
+    let right = line_triangle(exact(origin), exact(direction), &corners);
+    let met = matches!(right.meeting, Meeting::Hit(_));
+    (said != met, right.ulps * f64::EPSILON / epsilon)
+}
+
+/// The farthest from a tie that a wrong verdict lies, and how many are wrong and how many beyond the bound.
+fn farthest(verdicts: impl Iterator<Item = (bool, f64)>) -> (f64, usize, usize) {
+    verdicts.fold((0.0, 0, 0), |(most, wrong, beyond), (is_wrong, ulps)| {
+        let most = if is_wrong { ulps.max(most) } else { most };
+        (
+            most,
+            wrong + usize::from(is_wrong),
+            beyond + usize::from(ulps >= BOUND),
+        )
+    })
+}
+
+fn assert_bound((most, wrong, beyond): (f64, usize, usize)) {
+    assert!(most < BOUND, "wrong at {most} units");
+    // The bound is put to the test: many verdicts lie on either side of it, and it is not far too wide.
+    assert!(most > BOUND / 16.0, "{most}");
+    assert!(
+        wrong > CASES / 50 && beyond > CASES / 10,
+        "{wrong}, {beyond}"
+    );
+}
+
+#[test]
+fn in_double_precision_no_verdict_is_wrong_beyond_the_bound() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let verdicts = (0..CASES).filter_map(|_| {
+        let (o, d, [a, b, c]) = pair(&mut rng, 8.0, f64::EPSILON);
+        (d != DVec3::ZERO).then(|| judged([o, d, a, b, c], |p| p, f64::EPSILON))
+    });
+    assert_bound(farthest(verdicts));
+}
+
+#[test]
+fn in_single_precision_no_verdict_is_wrong_beyond_the_bound() {
+    let mut rng = ChaCha8Rng::seed_from_u64(6);
+    let epsilon = f64::from(f32::EPSILON);
+    let verdicts = (0..CASES).filter_map(|_| {
+        let (o, d, [a, b, c]) = pair(&mut rng, 5.0, epsilon);
+        let narrow = [o, d, a, b, c].map(|p| p.as_vec3());
+        (narrow[1] != Vec3::ZERO).then(|| judged(narrow, Vec3::as_dvec3, epsilon))
+    });
+    assert_bound(farthest(verdicts));
+}
