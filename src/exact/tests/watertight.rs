@@ -24,16 +24,15 @@ const BOUND: f64 = 4.0;
 
 const CASES: usize = 200_000;
 
-/// Whether the kernel's verdict is wrong, and the distance from a tie in the kernel's units.
-fn judged<V: Vector>(
-    [origin, direction, a, b, c]: [V; 5],
-    exact: impl Fn(V) -> DVec3,
-    epsilon: f64,
-) -> (bool, f64) {
+/// The kernel's verdict.
+fn kernel<V: Vector>([origin, direction, a, b, c]: [V; 5]) -> bool {
     let ray = Ray::new(Line::new(origin, direction), Span::FULL);
-    let said = Triangle([a, b, c]).intersect(&ray).is_some();
-    let corners = [a, b, c].map(&exact);
-    let right = line_triangle(exact(origin), exact(direction), &corners);
+    Triangle([a, b, c]).intersect(&ray).is_some()
+}
+
+/// Whether a verdict on origin, direction and corners is wrong, and their distance from a tie in units of `epsilon`.
+fn judged(said: bool, [origin, direction, a, b, c]: [DVec3; 5], epsilon: f64) -> (bool, f64) {
+    let right = line_triangle(origin, direction, &[a, b, c]);
     let met = matches!(right.meeting, Meeting::Hit(_));
     (said != met, right.ulps * f64::EPSILON / epsilon)
 }
@@ -65,7 +64,8 @@ fn in_double_precision_no_verdict_is_wrong_beyond_the_bound() {
     let mut rng = ChaCha8Rng::seed_from_u64(5);
     let verdicts = (0..CASES).filter_map(|_| {
         let (o, d, [a, b, c]) = pair(&mut rng, 8.0, f64::EPSILON);
-        (d != DVec3::ZERO).then(|| judged([o, d, a, b, c], |p| p, f64::EPSILON))
+        let given = [o, d, a, b, c];
+        (d != DVec3::ZERO).then(|| judged(kernel(given), given, f64::EPSILON))
     });
     assert_bound(farthest(verdicts));
 }
@@ -76,8 +76,25 @@ fn in_single_precision_no_verdict_is_wrong_beyond_the_bound() {
     let epsilon = f64::from(f32::EPSILON);
     let verdicts = (0..CASES).filter_map(|_| {
         let (o, d, [a, b, c]) = pair(&mut rng, 5.0, epsilon);
-        let narrow = [o, d, a, b, c].map(|p| p.as_vec3());
-        (narrow[1] != Vec3::ZERO).then(|| judged(narrow, Vec3::as_dvec3, epsilon))
+        let given = [o, d, a, b, c].map(|p| p.as_vec3());
+        let wide = given.map(Vec3::as_dvec3);
+        (given[1] != Vec3::ZERO).then(|| judged(kernel(given), wide, epsilon))
     });
     assert_bound(farthest(verdicts));
+}
+
+/// A test by the edge functions as they are written, whose products cancel where triangles are small and far, is found out.
+#[test]
+fn triple_products_are_wrong_far_beyond_the_bound() {
+    let mut rng = ChaCha8Rng::seed_from_u64(5);
+    let verdicts = (0..CASES / 10).filter_map(|_| {
+        let (o, d, corners) = pair(&mut rng, 8.0, f64::EPSILON);
+        let [a, b, c] = corners.map(|p| p - o);
+        let edges = [(b, c), (c, a), (a, b)].map(|(p, q)| d.dot(p.cross(q)));
+        let met = edges.iter().all(|&e| e >= 0.0) || edges.iter().all(|&e| e <= 0.0);
+        let [a, b, c] = corners;
+        (d != DVec3::ZERO).then(|| judged(met, [o, d, a, b, c], f64::EPSILON))
+    });
+    let (most, ..) = farthest(verdicts);
+    assert!(most > 100.0 * BOUND, "{most}");
 }
