@@ -91,7 +91,7 @@ pub fn samplers(run: &SpeedVsError) -> Table {
             Column::right(&format!("lines, {percent} %"), "lines"),
             Column::right("seconds", "seconds"),
             Column::right("nearest: gain", "nearest_gain"),
-            Column::right("efficiency", "nearest_efficiency"),
+            Column::right("nearest: efficiency", "nearest_efficiency"),
         ],
         keys: 1,
         rows: samplers.into_iter().map(row).collect(),

@@ -201,11 +201,16 @@ fn a_run_fits_one_screen() {
         "{text}"
     );
     assert!(text.lines().count() <= 40, "{text}");
+    // No table goes on below.
+    for first in ["sampler  ", "kernel  ", "search  "] {
+        let blocks = text.lines().filter(|line| line.starts_with(first)).count();
+        assert_eq!(blocks, 1, "{first}\n{text}");
+    }
     // Sentences are folded.
     let flat = text.replace('\n', " ");
     for part in [
         "sobol",
-        "nearest: gain",
+        "nearest:",
         "f32-padded",
         "sah-bins:8",
         "slope, random: 940 of 1,000",

@@ -5,19 +5,32 @@ use super::{Cell, Table};
 /// Longer names of rows are shortened, so that no path makes a table wider than its terminal.
 const LONGEST_NAME: usize = 28;
 
+/// What a terminal shows of a table.
+struct Texts {
+    /// Headings in two lines, the upper one empty where none is folded.
+    headings: [Vec<String>; 2],
+    /// Rows, long names shortened.
+    rows: Vec<Vec<String>>,
+    /// Width of each column.
+    widths: Vec<usize>,
+}
+
 impl Table {
-    /// For a terminal of this many characters: columns that do not fit follow below, beside the same row names. Long
-    /// headings are folded at a hyphen.
+    /// For a terminal of this many characters: where the columns do not fit, long headings are folded; what does not fit even
+    /// so follows below, beside the same row names.
     pub fn to_text(&self, width: usize) -> String {
-        let (headings, shown) = self.texts();
-        let widths = self.text_widths();
+        let Texts {
+            headings,
+            rows,
+            widths,
+        } = self.texts(width);
         let mut out = format!("{}\n", fold(&self.caption, width));
         for block in self.blocks(&widths, width) {
             out.push('\n');
             let rules: Vec<String> = widths.iter().map(|&width| "─".repeat(width)).collect();
             let folded = headings[0].iter().any(|text| !text.is_empty());
             let headings = headings[usize::from(!folded)..].iter();
-            for row in headings.chain([&rules]).chain(&shown) {
+            for row in headings.chain([&rules]).chain(&rows) {
                 let cells = block.iter().map(|&i| self.pad(i, &row[i], widths[i]));
                 let line = cells.collect::<Vec<_>>().join("  ");
                 out.push_str(line.trim_end());
@@ -27,8 +40,13 @@ impl Table {
         out
     }
 
-    /// Headings in two lines, and the rows (long names shortened), as a terminal shows them.
-    fn texts(&self) -> ([Vec<String>; 2], Vec<Vec<String>>) {
+    /// Whether text of this width holds all columns side by side.
+    pub fn fits(&self, width: usize) -> bool {
+        self.blocks(&self.texts(width).widths, width).len() == 1
+    }
+
+    /// What a terminal of this width shows: headings in one line if all columns fit so, else folded where a heading is wider than its cells.
+    fn texts(&self, width: usize) -> Texts {
         let show = |row: &Vec<Cell>| {
             let cells = row.iter().enumerate();
             cells
@@ -38,30 +56,33 @@ impl Table {
                 })
                 .collect()
         };
-        let headings = self
-            .columns
-            .iter()
-            .map(|column| fold_heading(&column.title));
-        let (above, below) = headings.map(|[above, below]| (above, below)).unzip();
-        ([above, below], self.rows.iter().map(show).collect())
-    }
-
-    /// Width of each column of [`texts`](Self::texts).
-    fn text_widths(&self) -> Vec<usize> {
-        let (headings, shown) = self.texts();
-        let widest = |i: usize| {
-            headings
-                .iter()
-                .chain(&shown)
-                .map(|row| row[i].chars().count())
-                .max()
-        };
-        (0..self.columns.len()).filter_map(widest).collect()
-    }
-
-    /// Whether text of this width holds all columns side by side.
-    pub fn fits(&self, width: usize) -> bool {
-        self.blocks(&self.text_widths(), width).len() == 1
+        let rows: Vec<Vec<String>> = self.rows.iter().map(show).collect();
+        let columns = 0..self.columns.len();
+        let cells = columns.map(|i| rows.iter().map(|row| length(&row[i])).max().unwrap_or(0));
+        let cells: Vec<usize> = cells.collect();
+        let titles = || self.columns.iter().map(|column| column.title.as_str());
+        let whole: Vec<usize> = titles()
+            .zip(&cells)
+            .map(|(t, &w)| length(t).max(w))
+            .collect();
+        let folded = titles().zip(&cells).map(|(title, &widest)| {
+            let fits = length(title) <= widest || self.blocks(&whole, width).len() == 1;
+            if fits {
+                [String::new(), title.to_owned()]
+            } else {
+                fold_heading(title)
+            }
+        });
+        let (above, below): (Vec<String>, Vec<String>) = folded.map(|[a, b]| (a, b)).unzip();
+        let headings = above.iter().zip(&below);
+        let widths = headings
+            .zip(cells)
+            .map(|((a, b), cells)| length(a).max(length(b)).max(cells));
+        Texts {
+            widths: widths.collect(),
+            headings: [above, below],
+            rows,
+        }
     }
 
     /// Columns that stand beside each other in a text of this width, the row names first each time.
@@ -89,22 +110,31 @@ impl Table {
 
 /// The name, or its end behind an ellipsis where it is longer: the end of a path tells more.
 fn shorten(name: &str) -> String {
-    let length = name.chars().count();
-    if length <= LONGEST_NAME {
+    if length(name) <= LONGEST_NAME {
         return name.to_owned();
     }
-    let end = name.chars().skip(length + 1 - LONGEST_NAME);
+    let end = name.chars().skip(length(name) + 1 - LONGEST_NAME);
     ['…'].into_iter().chain(end).collect()
 }
 
-/// A heading in two lines, the upper one empty if it is short or has no hyphen; split where the halves are most even.
+/// A heading in two lines, split at a space or behind a hyphen where the halves are most even; the upper one empty if it has neither.
 fn fold_heading(title: &str) -> [String; 2] {
-    const LONG: usize = 12;
-    let hyphens = title.match_indices('-').map(|(i, _)| i + 1);
-    match hyphens.min_by_key(|&i| i.abs_diff(title.len() - i)) {
-        Some(i) if title.len() > LONG => [title[..i].to_owned(), title[i..].to_owned()],
-        _ => [String::new(), title.to_owned()],
-    }
+    let gaps = title.match_indices([' ', '-']);
+    let halves = gaps.map(|(i, gap)| {
+        let above = if gap == " " {
+            &title[..i]
+        } else {
+            &title[..=i]
+        };
+        [above, &title[i + 1..]]
+    });
+    let halves = halves.min_by_key(|[above, below]| length(above).max(length(below)));
+    halves.unwrap_or(["", title]).map(str::to_owned)
+}
+
+/// Characters of a text.
+fn length(text: &str) -> usize {
+    text.chars().count()
 }
 
 /// Breaks a sentence into lines of at most this many characters.
@@ -112,17 +142,16 @@ pub(in crate::report) fn fold(text: &str, width: usize) -> String {
     let mut out = String::new();
     let mut used = 0;
     for word in text.split(' ') {
-        let length = word.chars().count();
         let (gap, start) = if used == 0 {
             ("", 0)
-        } else if used + 1 + length > width {
+        } else if used + 1 + length(word) > width {
             ("\n", 0)
         } else {
             (" ", used + 1)
         };
         out.push_str(gap);
         out.push_str(word);
-        used = start + length;
+        used = start + length(word);
     }
     out
 }

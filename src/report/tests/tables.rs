@@ -46,6 +46,30 @@ c          4,194,304              –      0.250
 }
 
 #[test]
+fn headings_fold_where_columns_do_not_fit() {
+    let mut table = sample();
+    table.columns[1].title = "lines, 0.1 %".into();
+    table.columns[3].title = "sah-between-medians".into();
+    let headings = |width: usize| {
+        let text = table.to_text(width);
+        let lines = text
+            .lines()
+            .skip(2)
+            .take_while(|line| !line.starts_with('─'));
+        lines.map(str::to_owned).collect::<Vec<_>>()
+    };
+    let one = "scene    lines, 0.1 %  difference, %  sah-between-medians";
+    assert_eq!(headings(one.len()), [one]);
+    // Not "scene": its cells are wider.
+    let two = [
+        "            lines,   difference,  sah-between-",
+        "scene        0.1 %             %       medians",
+    ];
+    assert_eq!(headings(two[1].len()), two);
+    assert!(table.fits(two[1].len()) && !table.fits(two[1].len() - 1));
+}
+
+#[test]
 fn a_text_table_too_wide_goes_on_below() {
     let text = sample().to_text(30);
     assert!(
