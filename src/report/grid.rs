@@ -22,6 +22,19 @@ pub struct Grid {
 }
 
 impl Grid {
+    /// The same with panels so wide that a row of them fills the page, of fewer panels too.
+    pub fn filled(self, panels: usize) -> Self {
+        let columns = self.columns.min(panels.max(1));
+        let gap = self.pitch.0 - self.size.0;
+        let pitch = (WIDTH - LEFT - self.left + gap) / columns as f64;
+        Self {
+            columns,
+            size: (pitch - gap, self.size.1),
+            pitch: (pitch, self.pitch.1),
+            ..self
+        }
+    }
+
     /// A figure of so many panels; `draw` gets the number and the place of each.
     pub fn figure(
         &self,

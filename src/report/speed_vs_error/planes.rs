@@ -24,6 +24,8 @@ const GRID: Grid = Grid {
     size: (208.0, 116.0),
     pitch: (252.0, 150.0),
 };
+/// Height of a panel that is the only one.
+const ALONE: f64 = 200.0;
 const RADIUS: f64 = 2.4;
 /// What is dominated stands back.
 const BEHIND: f64 = 0.35;
@@ -104,21 +106,21 @@ fn figure(run: &SpeedVsError, scenes: &[&str], which: &str, summary: &Summary) -
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );
-    GRID.figure(
+    let mut grid = GRID.filled(scenes.len());
+    // One panel alone has a page to itself.
+    if scenes.len() == 1 {
+        grid.size.1 = ALONE;
+    }
+    grid.figure(
         (TITLE, caption),
         &keys,
         scenes.len(),
         summary,
         |pen, number, frame| {
-            let lowest = GRID.is_lowest(number, scenes.len());
+            let lowest = grid.is_lowest(number, scenes.len());
             let all = Timed::all(run, scenes[number]);
-            draw(
-                pen,
-                &all,
-                &families,
-                frame,
-                (lowest, number % GRID.columns == 0),
-            );
+            let edges = (lowest, number % grid.columns == 0);
+            draw(pen, &all, &families, frame, edges);
         },
     )
 }
@@ -148,7 +150,7 @@ fn draw(
     if let Some(one) = all.first() {
         let objects = grouped(one.row.objects);
         let heading = format!("{}, {objects} objects", one.row.scene);
-        let heading = fit(&heading, MEDIUM + 0.6, GRID.size.0);
+        let heading = fit(&heading, MEDIUM + 0.6, frame.right - frame.left);
         panel.heading(&heading, frame.left - 2.0, 4.0);
     }
     panel.line(

@@ -6,7 +6,6 @@ use super::SpeedVsError;
 use super::times::Of;
 use crate::report::Figure;
 use crate::report::axis::extent;
-use crate::report::figure::{LEFT, WIDTH};
 use crate::report::grid::{Grid, page_name, part};
 use crate::report::legend::Key;
 use crate::report::number::grouped;
@@ -25,8 +24,6 @@ const GRID: Grid = Grid {
     size: (138.0, 84.0),
     pitch: (158.0, 104.0),
 };
-/// Between two panels.
-const GAP: f64 = 20.0;
 
 /// What a panel shows of a row: a number and the ends of its interval.
 pub type Shown = fn(&PrecisionRecord) -> Option<[f64; 3]>;
@@ -150,10 +147,10 @@ fn figure(
             Key::Ring(look),
             "lines aimed at edges and corners".to_owned(),
         ),
-        (Key::Line(faint), "ties included, random".to_owned()),
-        (Key::Dashes(faint), "aimed".to_owned()),
     ]);
     if !timed {
+        keys.push((Key::Line(faint), "ties included, random".to_owned()));
+        keys.push((Key::Dashes(faint), "aimed".to_owned()));
         keys.push((Key::Area(WARNED), "f32 warned of".to_owned()));
         keys.push((Key::Area(REFUSED), "f32 refused".to_owned()));
     }
@@ -177,23 +174,15 @@ fn figure(
     };
     let caption = format!(
         "Visits (hits): nodes (triangles) taken for met that the line misses, or missed that it meets, by exact arithmetic on \
-         the kernel's own numbers, per 10⁹ nodes met (triangles tested). Marks: by more than 8 ulp; faint lines: ties included, with 95 % \
+         the kernel's own numbers, per 10⁹ nodes met (triangles tested). Marks: by more than 8 ulp; smaller, faint: ties included, with 95 % \
          intervals; on the lower edge: none; marks of kernels stand a little beside each other. f32 is judged on its rounded inputs: what \
          their rounding does shows in slope and max |z| alone. Against {own}. Up to {} lines of each family.{disturbed} Stop {}. Seed {}.{which}",
         grouped(lines.1 as u64),
         summary.stop.as_deref().unwrap_or("unknown"),
         summary.seed
     );
-    // Fewer scenes have wider panels.
-    let pitch = (WIDTH - LEFT - GRID.left + GAP) / scenes.len() as f64;
-    let grid = Grid {
-        columns: scenes.len(),
-        size: (pitch - GAP, GRID.size.1),
-        pitch: (pitch, GRID.pitch.1),
-        ..GRID
-    };
     let panels = scenes.len() * quantities.len();
-    grid.figure(
+    GRID.filled(scenes.len()).figure(
         (title, caption),
         &keys,
         panels,

@@ -18,12 +18,13 @@ const TITLE: &str = "Hard cases: is every answer right?";
 const LINES: usize = 42;
 /// Height of a line; widest column.
 const ROW: f64 = 10.4;
-const COLUMN: f64 = 13.0;
-/// A kernel's only column.
-const LONE: f64 = 46.0;
+const COLUMN: f64 = 9.8;
+/// A kernel's only column, and the room of the kernel's name above it.
+const LONE: f64 = 34.0;
+const KERNEL: f64 = 46.0;
 /// Between two kernels.
 const GAP: f64 = 6.0;
-const WIDEST_NAME: f64 = 140.0;
+const WIDEST_NAME: f64 = 156.0;
 /// Least room in which what a case stresses is told beside it.
 const ROOM: f64 = 120.0;
 
@@ -113,7 +114,6 @@ impl<'r> Columns<'r> {
         let count: usize = blocks.iter().map(|(_, own)| own.len()).sum();
         let gaps = GAP * blocks.len().saturating_sub(1) as f64;
         let room = WIDTH - LEFT - left - gaps;
-        // A lone column a kernel is as wide as the kernel's name needs.
         let widest = if strategies.len() == 1 { LONE } else { COLUMN };
         let width = (room / count.max(1) as f64).min(widest);
         let (mut x, mut all) = (left, Vec::new());
@@ -139,7 +139,7 @@ impl<'r> Columns<'r> {
             let lefts: Vec<f64> = own.map(|column| column.2).collect();
             let (first, last) = (lefts[0], lefts[lefts.len() - 1] + self.width);
             let middle = (0.5 * (first + last), kernels);
-            let name = fit(kernel_words(kernel), MEDIUM, (last - first).max(30.0));
+            let name = fit(kernel_words(kernel), MEDIUM, (last - first).max(KERNEL));
             pen.text(&name, middle, MEDIUM, INK, (HPos::Center, VPos::Bottom));
             let rule = kernels + 2.5;
             pen.line(&[(first, rule), (last, rule)], INK, 0.5);

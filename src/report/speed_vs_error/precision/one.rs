@@ -12,11 +12,11 @@ use plotters::style::RGBAColor;
 
 const RADIUS: f64 = 2.2;
 /// Of what includes ties.
-const SMALL: f64 = 1.4;
+const SMALL: f64 = 1.7;
 /// From the marks of one kernel to those of the next.
 const BESIDE: f64 = 3.0;
 /// Opacity of what includes ties.
-pub const FAINT: f64 = 0.35;
+pub const FAINT: f64 = 0.5;
 const FAMILIES: [&str; 2] = ["random", "aimed"];
 /// Offsets at which f32 numbers are warned of.
 pub const WARNED: RGBAColor = faded(SKY, 0.28);
@@ -182,24 +182,19 @@ impl<'r> One<'r> {
         }
         for (x, [value, lo, hi]) in points {
             panel.line(&[(x, lo.max(low)), (x, hi.max(low))], colour, 0.7);
-            panel.mark((x, value.max(low)), curve.look.marker, SMALL, colour);
+            curve.mark(panel, (x, value.max(low)), SMALL, colour);
         }
     }
 
     /// What is marked, joined by a line.
     fn marks(&self, panel: &mut Panel, curve: &Curve, low: f64) {
-        let Look { colour, marker } = curve.look;
+        let colour = curve.look.colour;
         let points = curve.points(panel, |row| self.marked(row));
         let line: Vec<_> = points.iter().map(|(x, v)| (*x, v[0].max(low))).collect();
         panel.line(&line, faded(colour, 0.7), 0.8);
         for (x, [value, lo, hi]) in points {
             panel.line(&[(x, lo.max(low)), (x, hi.max(low))], colour, 0.7);
-            let at = (x, value.max(low));
-            if curve.aimed {
-                panel.ring(at, marker, RADIUS, colour);
-            } else {
-                panel.mark(at, marker, RADIUS, colour);
-            }
+            curve.mark(panel, (x, value.max(low)), RADIUS, colour);
         }
     }
 
@@ -234,6 +229,15 @@ struct Curve<'r> {
 }
 
 impl Curve<'_> {
+    /// One of its marks, of aimed lines a ring.
+    fn mark(&self, panel: &Panel, at: (f64, f64), radius: f64, colour: RGBAColor) {
+        if self.aimed {
+            panel.ring(at, self.look.marker, radius, colour);
+        } else {
+            panel.mark(at, self.look.marker, radius, colour);
+        }
+    }
+
     /// Where it is drawn, and what is shown of it.
     fn points(
         &self,
