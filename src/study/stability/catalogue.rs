@@ -49,7 +49,7 @@ pub fn select(names: Option<&[String]>) -> Result<Vec<Case>, String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::study::stability::case::Group;
+    use crate::study::stability::case::{Check, Group, Outcome};
 
     #[test]
     fn names_are_unique_and_every_group_is_there() {
@@ -66,6 +66,21 @@ mod tests {
         for case in all {
             assert!(case.name.chars().all(plain), "{}", case.name);
             assert!(!case.stresses.is_empty(), "{}", case.name);
+        }
+    }
+
+    /// Cases of files and of statistics come out as expected, word for word.
+    #[test]
+    fn cases_of_neither_kernel_nor_tree_pass() {
+        for case in catalogue() {
+            if !matches!(case.group, Group::Files | Group::Statistics) {
+                continue;
+            }
+            let Check::Once(check) = case.check else {
+                panic!("{} needs no kernel", case.name);
+            };
+            let finding = check();
+            assert_eq!(finding.outcome, Outcome::Pass, "{}: {finding:?}", case.name);
         }
     }
 

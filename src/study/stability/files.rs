@@ -5,7 +5,8 @@ mod experiments;
 mod rays;
 mod scenes;
 
-use super::case::{Case, Check, Finding, Group};
+use super::case::{Case, Finding, Group};
+use super::first_hit::once;
 
 /// The cases of this group.
 pub fn cases() -> Vec<Case> {
@@ -15,30 +16,7 @@ pub fn cases() -> Vec<Case> {
     all
 }
 
-/// A case that depends on no kernel and no tree.
+/// A case of this group.
 fn case(name: &'static str, stresses: &'static str, check: fn() -> Finding) -> Case {
-    Case {
-        name,
-        group: Group::Files,
-        stresses,
-        check: Check::Once(check),
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn every_case_passes_and_has_a_name_of_its_own() {
-        let mut names = std::collections::BTreeSet::new();
-        for case in cases() {
-            assert!(names.insert(case.name), "{} twice", case.name);
-            let Check::Once(check) = case.check else {
-                panic!("{} needs no kernel", case.name);
-            };
-            let finding = check();
-            assert_eq!(finding.measured, finding.expected, "{}", case.name);
-        }
-    }
+    once(Group::Files, name, stresses, check)
 }
