@@ -204,7 +204,12 @@ fn wrong_experiments_are_refused() {
         ("work = 20000", "work = 0", "e.toml:12", "must be 1 to"),
         ("rays = 512", "rais = 512", "e.toml:12", "unknown field"),
         ("draws = 20", "draws = 0", "e.toml:13", "must be 1 to"),
-        ("\"shadow\"", "\"lines\"", "e.toml:8", "named twice"),
+        (
+            "\"shadow\"",
+            "\"lines\"",
+            "e.toml:8",
+            "set of rays 'lines' is named twice",
+        ),
         (
             "\"shadow\"",
             "\"lines:near\"",

@@ -272,6 +272,11 @@ fn wrong_input_is_told_with_its_place() {
         "must name 'random'",
     );
     speed(
+        "methods = [\"random\", ",
+        "methods = [\"random\", \"random\", ",
+        "method 'random' is named twice",
+    );
+    speed(
         "precision = { scenes = [\"simple:soup:80\"]",
         "precision = { scenes = [\"simple:uniform:60\"]",
         "no triangles",
@@ -312,5 +317,10 @@ fn wrong_input_is_told_with_its_place() {
         "box-corner-touch",
     );
     stability("\"f64\", ", "", "must name 'f64'");
+    stability(
+        "\"f64\", ",
+        "\"f64\", \"f64\", ",
+        "kernel 'f64' is named twice",
+    );
     stability("random = 4000", "random = 0", "must be 1 to 2^40");
 }

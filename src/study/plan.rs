@@ -7,7 +7,8 @@ mod error;
 mod overrides;
 mod table;
 
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
+use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 
@@ -17,7 +18,6 @@ use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
 use crate::cost::CostModel;
-use crate::kd::{StopRule, Strategy};
 use crate::scene::quotable;
 
 use super::assumptions::Assumptions;
@@ -285,15 +285,7 @@ impl Plan {
         wrong_unless(!self.question.trim().is_empty(), "question", || {
             "the question is empty; it is printed with every answer".into()
         })?;
-        wrong_unless(!self.scenes.is_empty(), "scenes", || {
-            "scenes must name at least one".into()
-        })?;
-        let mut seen = HashSet::new();
-        for scene in &self.scenes {
-            wrong_unless(seen.insert(scene.as_str()), "scenes", || {
-                format!("scene '{scene}' is named twice")
-            })?;
-        }
+        each_once("scenes", "scene", &self.scenes)?;
         let mut stems = HashMap::new();
         for scene in &self.scenes {
             let other = stems.insert(file_stem(scene), scene);
@@ -434,31 +426,32 @@ impl Plan {
     }
 }
 
-/// At least one strategy, none twice.
-pub(super) fn check_strategies(strategies: &[Strategy]) -> Result<(), Wrong> {
-    wrong_unless(!strategies.is_empty(), "strategies", || {
-        "strategies must name at least one".into()
+/// At least one thing of this sort, none twice.
+pub(super) fn each_once<T: PartialEq + Display>(
+    key: &'static str,
+    sort: &str,
+    all: &[T],
+) -> Result<(), Wrong> {
+    wrong_unless(!all.is_empty(), key, || {
+        format!("{key} must name at least one")
     })?;
-    let mut seen = HashSet::new();
-    for &strategy in strategies {
-        wrong_unless(seen.insert(strategy), "strategies", || {
-            format!("strategy '{strategy}' is named twice")
-        })?;
-    }
-    Ok(())
+    none_twice(key, sort, all)
 }
 
-/// At least one stop rule, none twice.
-pub(super) fn check_stops(stops: &[StopRule]) -> Result<(), Wrong> {
-    wrong_unless(!stops.is_empty(), "stops", || {
-        "stops must name at least one rule".into()
-    })?;
-    for (i, stop) in stops.iter().enumerate() {
-        wrong_unless(!stops[..i].contains(stop), "stops", || {
-            format!("stop rule '{stop}' is named twice")
-        })?;
+/// Nothing of this sort twice.
+pub(super) fn none_twice<T: PartialEq + Display>(
+    key: &'static str,
+    sort: &str,
+    all: &[T],
+) -> Result<(), Wrong> {
+    let again = |i: &usize| all[..*i].contains(&all[*i]);
+    match (1..all.len()).find(again) {
+        None => Ok(()),
+        Some(i) => Err(Wrong {
+            key,
+            message: format!("{sort} '{}' is named twice", all[i]),
+        }),
     }
-    Ok(())
 }
 
 /// Costs above this could leave f64 in a sum.

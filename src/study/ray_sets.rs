@@ -14,7 +14,7 @@ use crate::tracer::{RayKind, trace};
 use super::hits::cell::build_tree;
 use super::lines::check_error;
 use super::needed::{Rare, needed};
-use super::plan::{Wrong, wrong_unless};
+use super::plan::{Wrong, each_once, wrong_unless};
 use crate::cost::CostModel;
 
 /// The name of a set of rays: `SOURCE[:ASK]` such as `lines` or `volume-ray:nearest` (without ASK nothing stops them), or
@@ -44,13 +44,8 @@ impl RaysOf {
 
     /// Sets that an experiment names: each once, at least one.
     pub fn check(sets: &[Self]) -> Result<(), Wrong> {
-        wrong_unless(!sets.is_empty(), "rays", || {
-            "rays must name at least one set".into()
-        })?;
-        for (i, set) in sets.iter().enumerate() {
-            wrong_unless(!sets[..i].contains(set), "rays", || {
-                format!("the rays '{set}' are named twice")
-            })?;
+        each_once("rays", "set of rays", sets)?;
+        for set in sets {
             wrong_unless(!matches!(set, Self::Own(_)), "rays", || {
                 format!("rays '{OWN}' come from the command line, not from an experiment")
             })?;
@@ -160,7 +155,7 @@ pub struct Number {
 }
 
 /// Most rays of a set that a wanted error may ask for: each takes 64 bytes.
-const MOST_RAYS: u64 = 1 << 22;
+pub(super) const MOST_RAYS: u64 = 1 << 22;
 
 impl Number {
     /// Whether the wanted error can be one.

@@ -6,7 +6,7 @@ use crate::kd::{Ask, Rules, StopRule, Strategy};
 use crate::rays::{LineLaw, Source};
 use crate::study::Plan;
 use crate::study::hits::asked::{Figure, check_family};
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, each_once, wrong_unless};
 use crate::study::ray_sets::{Number, RaysOf};
 
 /// The keys of this kind.
@@ -54,7 +54,7 @@ const MOST_PIXELS: u32 = 1024;
 impl Assumptions {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
-        check_strategies(&self.strategies)?;
+        each_once("strategies", "strategy", &self.strategies)?;
         wrong_unless(self.strategies.len() > 1, "strategies", || {
             "strategies must name at least two, which the metric and the rays rank".into()
         })?;

@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
-use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, each_once, wrong_unless};
 use crate::study::ray_sets::{Number, RaysOf};
 use crate::study::timing::halves;
 
@@ -80,8 +80,8 @@ const MOST_PIXELS: u32 = 2048;
 impl CostVsWork {
     /// Whether the values make sense together.
     pub fn check(&self, _: &[String]) -> Result<(), Wrong> {
-        check_strategies(&self.strategies)?;
-        check_stops(&self.stops)?;
+        each_once("strategies", "strategy", &self.strategies)?;
+        each_once("stops", "stop rule", &self.stops)?;
         RaysOf::check(&self.rays)?;
         let within = |key: &'static str, value: u64, most: u64| {
             wrong_unless((1..=most).contains(&value), key, || {

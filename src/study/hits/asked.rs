@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::lines::FEWEST_LINES;
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, each_once, wrong_unless};
 
 use super::work::Work;
 
@@ -72,7 +72,7 @@ pub struct Expect {
 impl HitsVsArea {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
-        check_strategies(&self.strategies)?;
+        each_once("strategies", "strategy", &self.strategies)?;
         let Figure { scene, strategy } = &self.figure;
         let drawn = scenes.contains(scene) && self.strategies.contains(strategy);
         wrong_unless(drawn, "figure", || {

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use crate::kd::Strategy;
 use crate::study::lines::{FEWEST_LINES, check_error};
-use crate::study::plan::{Wrong, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, each_once, wrong_unless};
 use crate::study::timing;
 
 use super::asked::{Coverage, Method, Planes, Precision, Samplers, SpeedVsError};
@@ -92,25 +92,11 @@ impl SpeedVsError {
 
 /// Scenes that a part names: some, each once, of these.
 fn named(key: &'static str, own: &[String], all: &[String], of: &str) -> Result<(), Wrong> {
-    each_once(key, own)?;
+    each_once(key, "scene", own)?;
     own.iter().try_for_each(|scene| {
         wrong_unless(all.contains(scene), key, || {
             format!("{key}: '{scene}' is not among {of}")
         })
-    })
-}
-
-/// At least one thing, none twice.
-pub fn each_once<T: PartialEq + std::fmt::Debug>(
-    key: &'static str,
-    all: &[T],
-) -> Result<(), Wrong> {
-    wrong_unless(!all.is_empty(), key, || {
-        format!("{key} must name at least one")
-    })?;
-    let twice = (1..all.len()).find(|&i| all[..i].contains(&all[i]));
-    wrong_unless(twice.is_none(), key, || {
-        format!("{key} has {:?} twice", all[twice.unwrap_or(0)])
     })
 }
 
@@ -138,7 +124,7 @@ const SCENES: &str = "the experiment's scenes";
 
 fn check_samplers(part: &Samplers, scenes: &[String]) -> Result<(), Wrong> {
     named("samplers.scenes", &part.scenes, scenes, SCENES)?;
-    each_once("samplers.methods", &part.methods)?;
+    each_once("samplers.methods", "method", &part.methods)?;
     let random = part.methods.contains(&Method::Random);
     wrong_unless(random, "samplers.methods", || {
         "samplers.methods must name 'random', which the others are held against".into()
@@ -168,7 +154,7 @@ fn check_samplers(part: &Samplers, scenes: &[String]) -> Result<(), Wrong> {
             part.reference
         )
     })?;
-    each_once("samplers.wanted", &part.wanted)?;
+    each_once("samplers.wanted", "error", &part.wanted)?;
     let shares = part.wanted.iter().all(|e| *e > 0.0 && *e < 1.0);
     wrong_unless(shares, "samplers.wanted", || {
         "samplers.wanted must be relative errors between 0 and 1".into()
@@ -178,8 +164,8 @@ fn check_samplers(part: &Samplers, scenes: &[String]) -> Result<(), Wrong> {
 
 fn check_precision(part: &Precision, scenes: &[String]) -> Result<(), Wrong> {
     named("precision.scenes", &part.scenes, scenes, SCENES)?;
-    each_once("precision.kernels", &part.kernels)?;
-    each_once("precision.offsets", &part.offsets)?;
+    each_once("precision.kernels", "kernel", &part.kernels)?;
+    each_once("precision.offsets", "offset", &part.offsets)?;
     let offsets = part.offsets.iter().all(|o| (0.0..=1e12).contains(o));
     wrong_unless(offsets, "precision.offsets", || {
         "precision.offsets must be numbers of 0 to 1e12".into()
@@ -190,10 +176,7 @@ fn check_precision(part: &Precision, scenes: &[String]) -> Result<(), Wrong> {
 
 fn check_planes(part: &Planes, scenes: &[String]) -> Result<(), Wrong> {
     named("planes.scenes", &part.scenes, scenes, SCENES)?;
-    check_strategies(&part.strategies).map_err(|wrong| Wrong {
-        key: "planes.strategies",
-        ..wrong
-    })?;
+    each_once("planes.strategies", "strategy", &part.strategies)?;
     let exact = part.strategies.contains(&Strategy::Sah);
     wrong_unless(exact, "planes.strategies", || {
         "planes.strategies must name 'sah', the exact search".into()

@@ -1,5 +1,7 @@
 //! Ways to estimate by lines.
 
+use std::fmt;
+
 use serde::Deserialize;
 
 use crate::kd::Ask;
@@ -70,6 +72,12 @@ impl Method {
     /// Whether positions are integrated exactly, so that no line is traversed.
     pub fn is_conditional(self) -> bool {
         matches!(self, Self::Conditional | Self::ConditionalSobol)
+    }
+}
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(self.name())
     }
 }
 

@@ -1,10 +1,12 @@
 //! What a `split-cost` experiment asks for besides its scenes.
 
+use std::fmt;
+
 use serde::Deserialize;
 
 use crate::kd::StopRule;
 use crate::kd::stop::MAX_FULL_DEPTH;
-use crate::study::plan::{Wrong, wrong_unless};
+use crate::study::plan::{Wrong, none_twice, wrong_unless};
 
 /// The keys of this kind.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -30,6 +32,12 @@ pub struct CurveOf {
     pub scene: String,
     /// Its rank among the inner nodes by surface area: 1 is the root.
     pub rank: u32,
+}
+
+impl fmt::Display for CurveOf {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{} of {}", self.rank, self.scene)
+    }
 }
 
 /// An octree.
@@ -69,11 +77,7 @@ impl SplitCost {
                 "rank = 0, but the largest node, the root, has rank 1".into()
             })?;
         }
-        for (i, curve) in self.curves.iter().enumerate() {
-            wrong_unless(!self.curves[..i].contains(curve), "curves", || {
-                format!("node {} of {} is named twice", curve.rank, curve.scene)
-            })?;
-        }
+        none_twice("curves", "node", &self.curves)?;
         if let Some(OctreeOf {
             limit,
             levels,

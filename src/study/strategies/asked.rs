@@ -5,7 +5,7 @@ use serde::Deserialize;
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
 use crate::study::hits::asked::check_family;
-use crate::study::plan::{Wrong, check_stops, check_strategies, wrong_unless};
+use crate::study::plan::{Wrong, each_once, wrong_unless};
 use crate::study::records::file_stem;
 use crate::study::timing::Timing;
 use crate::tracer::PIXELS;
@@ -55,8 +55,8 @@ pub struct Expect {
 impl Strategies {
     /// Whether the values make sense together.
     pub fn check(&self, scenes: &[String]) -> Result<(), Wrong> {
-        check_strategies(&self.strategies)?;
-        check_stops(&self.stops)?;
+        each_once("strategies", "strategy", &self.strategies)?;
+        each_once("stops", "stop rule", &self.stops)?;
         wrong_unless((1..=MOST_PIXELS).contains(&self.pixels), "pixels", || {
             format!(
                 "pixels = {}, but it must be 1 to {MOST_PIXELS}",
