@@ -8,6 +8,8 @@
 //! A trial knows nothing of what its lines are too few to meet: a dense cluster that one line in 10^5 hits may make most of
 //! the variance. But areas tell how often a line hits each node, and what it is expected to do there: see [`Rare`].
 
+mod verdict;
+
 use std::ops::Range;
 
 use rayon::prelude::*;
@@ -16,7 +18,7 @@ use crate::cost::CostModel;
 use crate::kd::{Node, NodeKind, Prediction, Stack, Tree};
 use crate::stats::{ScoreMoments, normal_quantile};
 
-use super::records::{CellRecord, Verdict, WorkRecord};
+pub use verdict::{of_cells, of_rays, verdict};
 
 /// C is within the wanted error with this probability.
 pub const CONFIDENCE: f64 = 0.95;
@@ -199,58 +201,6 @@ fn asked(error: f64, rare: f64, trial: &ScoreMoments<2>) -> Asked {
         lines,
         known: uncertain + rare <= KNOWN * variance && off <= 0.25 * KNOWN * mean,
     }
-}
-
-/// Whether every C came out as well known as was wanted. A row: where, C, and its standard error; without one it is not known.
-pub fn verdict(
-    error: f64,
-    rows: impl Iterator<Item = (String, f64, Option<f64>)>,
-) -> Option<Verdict> {
-    let z = normal_quantile(CONFIDENCE);
-    let half = |(place, c, se): (String, f64, Option<f64>)| {
-        let share = match se {
-            Some(se) if se <= 0.0 => 0.0,
-            Some(se) => z * se / c,
-            None => f64::INFINITY,
-        };
-        (share, place)
-    };
-    let rows: Vec<(f64, String)> = rows.map(half).collect();
-    let (known, unknown): (Vec<_>, Vec<_>) = rows.iter().partition(|row| row.0.is_finite());
-    let (widest, place) = known.iter().max_by(|a, b| a.0.total_cmp(&b.0))?;
-    let within = known.iter().filter(|row| row.0 <= error).count();
-    let unknown = match unknown.len() {
-        0 => String::new(),
-        n => format!("; {n} not known: their variance hangs on events too rare for the pilot"),
-    };
-    Some(Verdict {
-        name: "error".into(),
-        held: within == rows.len(),
-        message: format!(
-            "95 % interval of C within ± {} % in {within} of {} cases; widest {:.3} % ({place}){unknown}",
-            100.0 * error,
-            rows.len(),
-            100.0 * widest
-        ),
-    })
-}
-
-/// The same of cells and of the rays of sources through them, where an error was wanted.
-pub fn of_records(
-    error: Option<f64>,
-    cells: &[CellRecord],
-    work: &[&WorkRecord],
-) -> Option<Verdict> {
-    let cell = |r: &CellRecord| {
-        let place = format!("{} on {}", r.strategy, r.scene);
-        (place, r.c_counted, r.c_se)
-    };
-    let set = |r: &&WorkRecord| {
-        let place = format!("{} of {} on {}", r.rays, r.strategy, r.scene);
-        (place, r.c_counted, r.c_se)
-    };
-    let sampled = work.iter().filter(|r| !r.complete && r.entered > 0);
-    verdict(error?, cells.iter().map(cell).chain(sampled.map(set)))
 }
 
 #[cfg(test)]

@@ -84,7 +84,7 @@ fn write(
     store.write_rows("exact.csv", &exact)?;
     let estimates = verdicts::control(asked, &work);
     let mut verdicts = verdicts::all(asked, &work, &by_area, &exact, &estimates);
-    verdicts.extend(needed::of_records(asked.error, &[], &work));
+    verdicts.extend(needed::verdict(&needed::of_rays(asked.error, &work)));
     store.write_summary(&Summary {
         stop: Some(asked.stop.to_string()),
         family_level: Some(1.0 - asked.expect.family),

@@ -71,7 +71,9 @@ pub(super) fn run(
         "the predicted count",
         &counts,
     ));
-    verdicts.extend(needed::of_records(asked.error, &records, &work));
+    let mut known = needed::of_cells(&asked.lines, &records);
+    known.extend(needed::of_rays(asked.error, &work));
+    verdicts.extend(needed::verdict(&known));
     store.write_summary(&Summary {
         stop: match asked.stops[..] {
             [stop] => Some(stop.to_string()),

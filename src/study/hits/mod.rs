@@ -263,7 +263,10 @@ fn summarise(
 ) -> Summary {
     let estimates = estimates(cells, asked.expect.family);
     let mut verdicts = verdicts::all(asked, cells, samplers, &estimates);
-    verdicts.extend(needed::of_records(asked.lines.cost_error(), cells, work));
+    let mut known = needed::of_cells(&asked.lines, cells);
+    let rays_error = asked.work.as_ref().and_then(|work| work.error);
+    known.extend(needed::of_rays(rays_error, work));
+    verdicts.extend(needed::verdict(&known));
     Summary {
         stop: Some(asked.stop.to_string()),
         slope_within: Some(asked.expect.slope_within),

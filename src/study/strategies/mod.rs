@@ -74,7 +74,7 @@ fn write(
     store.write_rows("rays.csv", &rays)?;
     let estimates = hits::estimates(&records, asked.expect.family);
     let mut verdicts = verdicts::all(asked, &records, &rays, &estimates);
-    verdicts.extend(needed::of_records(asked.lines.cost_error(), &records, &[]));
+    verdicts.extend(needed::verdict(&needed::of_cells(&asked.lines, &records)));
     store.write_summary(&Summary {
         stop: match asked.stops[..] {
             [stop] => Some(stop.to_string()),
