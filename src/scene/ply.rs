@@ -88,13 +88,21 @@ fn header(head: &str) -> Result<Header, (usize, Fault)> {
             ),
         ),
     })?;
-    // The crate keeps only the last of two declarations of one name.
+    declared_once(head)?;
+    Ok(header)
+}
+
+/// Whether each name is declared once, and one list of a face's corners: of two declarations of a name the crate keeps the last,
+/// and of two lists neither is the better.
+fn declared_once(head: &str) -> Result<(), (usize, Fault)> {
     let (mut elements, mut properties) = (BTreeSet::new(), BTreeSet::new());
+    let (mut element, mut lists) = ("", 0);
     for (i, line) in head.lines().enumerate() {
         let words: Vec<_> = line.split_whitespace().collect();
         let first = match words[..] {
             ["element", name, _] => {
                 properties.clear();
+                element = name;
                 elements.insert(name)
             }
             ["property", .., name] => properties.insert(name),
@@ -107,8 +115,18 @@ fn header(head: &str) -> Result<Header, (usize, Fault)> {
             );
             return Err((i + 1, fault));
         }
+        if let ["property", "list", .., name] = words[..] {
+            lists += usize::from(element == "face" && CORNERS.contains(&name));
+        }
+        if lists > 1 {
+            let fault = Fault::new(
+                format!("'{line}' declares a second list of corners"),
+                "a face has one, 'vertex_indices' or 'vertex_index'",
+            );
+            return Err((i + 1, fault));
+        }
     }
-    Ok(header)
+    Ok(())
 }
 
 /// Whether the header declares a mesh.

@@ -110,6 +110,7 @@ fn header_faults() {
         uchar int          | uchar float      | :12 | not whole numbers           | list of int or uint
         float z            | float x          | :8  | 'property float x' declares a name again | must differ
         element face 1     | element vertex 1 | :10 | declares a name again       | must differ
+        end_header | property list uchar int vertex_index\nend_header | :12 | a second list of corners | a face has one
     ";
     for row in table.trim().lines() {
         let cell = |c: &str| c.trim().replace("\\n", "\n");

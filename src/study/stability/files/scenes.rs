@@ -183,6 +183,15 @@ pub(super) fn cases() -> Vec<Case> {
         case("ply-name-twice", "headers", || {
             told("a.ply", b"ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float x\nend_header\n0 0\n", "a.ply:5: 'property float x' declares a name again; the names of elements must differ, and so must those of an element's properties")
         }),
+        case("ply-corners-twice", "headers", || {
+            let once = String::from_utf8_lossy(&ply("ascii", 3, "uchar", b"")).into_owned();
+            let list = "property list uchar int vertex_indices\nend_header";
+            told(
+                "a.ply",
+                once.replace("end_header", list) + "0 0 0\n1 0 0\n0 1 0\n3 0 1 2 3 0 2 1\n",
+                "a.ply:9: 'property list uchar int vertex_indices' declares a second list of corners; a face has one, 'vertex_indices' or 'vertex_index'",
+            )
+        }),
         case("stl-more-announced", "allocation", || {
             told(
                 "a.stl",
