@@ -152,7 +152,9 @@ fn an_experiment_names_its_sets_of_rays() {
         fs::write(&file, text).unwrap();
         validate(here).args(["run", "e.toml"]).assert()
     };
-    run(EXPERIMENT).code(0).stdout(contains("areas take"));
+    run(EXPERIMENT)
+        .code(0)
+        .stdout(contains("What areas tell of rays that are not isotropic"));
     let data = here.join("data/e");
     let work: Vec<WorkRecord> = rows(&data, "work.csv");
     let of = |scene: &str| {
