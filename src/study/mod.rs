@@ -5,6 +5,7 @@ pub mod choices;
 pub mod cost_vs_work;
 pub mod hits;
 pub mod identity;
+pub mod incidence;
 pub mod kernel;
 pub mod lines;
 pub mod needed;

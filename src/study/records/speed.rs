@@ -112,7 +112,7 @@ pub struct PrecisionRecord {
     pub resolution: Option<f64>,
     /// Lines.
     pub lines: u64,
-    /// Nodes whose closed boxes the lines meet, exactly. Where the tree is refused, visits and tests are of the first 256 lines.
+    /// Nodes whose closed boxes the lines meet, exactly. Where the tree is refused, visits and tests are of the first 64 lines.
     pub visits: u64,
     /// Nodes visited that the line does not meet, by more than 8 ulp of the kernel's numbers.
     pub wrong_visits: u64,

@@ -1,7 +1,6 @@
 //! What a kernel's precision costs in time and in error: visits and hits held against the exact oracle.
 
-mod judge;
-mod numbers;
+mod count;
 mod rate;
 mod seconds;
 mod verdicts;
@@ -14,13 +13,13 @@ use crate::kd::{Counting, Mode, Planes, Tracing, Tree, build};
 use crate::rays::SurfaceLines;
 use crate::study::Watcher;
 use crate::study::identity::line_seed;
+use crate::study::incidence::{Against, Aim, Exact, Narrow, Subject};
 use crate::study::kernel::Kernel;
 use crate::study::records::{PassTiming, PrecisionRecord};
 
 use super::asked::Precision;
 use super::{Found, Piece};
-use judge::{Judged, judge};
-use numbers::{Exact, Subject};
+use count::{Counted, count};
 use rate::Rate;
 use seconds::{Pass, passes, seconds};
 pub use verdicts::verdicts;
@@ -98,24 +97,13 @@ impl<'a> Place<'a> {
 
     /// The rows of every kernel.
     fn measure(&self, watcher: &impl Watcher, found: &mut Found) {
-        let wide = Subject {
-            tree: &self.tree,
-            boxes: &self.tree.boxes,
-            triangles: &self.objects.triangles,
-        };
-        let wide_lines = wide.random(&self.lines, self.asked.lines);
+        let wide = Subject::new(&self.tree, &self.objects.triangles);
+        let wide_lines = self.random(&wide);
         // Beyond the range of f32 there is nothing to measure.
-        let narrow = NarrowTree::however_coarse(&self.tree)
-            .and_then(|tree| Ok((tree, narrow_triangles(&self.objects)?)))
-            .ok();
-        let narrow = narrow.as_ref().map(|(tree, triangles)| Subject {
-            tree,
-            boxes: &tree.boxes,
-            triangles,
-        });
-        let narrow_lines = narrow
-            .as_ref()
-            .map(|s| s.random(&self.lines, self.asked.lines));
+        let narrow = NarrowTree::however_coarse(&self.tree).ok();
+        let narrow = narrow.map(|tree| Narrow::new(tree, &self.objects.triangles));
+        let narrow = narrow.as_ref().map(Narrow::subject);
+        let narrow_lines = narrow.as_ref().map(|subject| self.random(subject));
         let mut timed: Vec<Pass<'_>> = Vec::new();
         for &kernel in &self.asked.kernels {
             match (kernel, &narrow, &narrow_lines) {
@@ -130,7 +118,7 @@ impl<'a> Place<'a> {
                 }
                 _ => found
                     .precision
-                    .push(self.row(kernel, "random", &Judged::default(), 0, &[])),
+                    .push(self.row(kernel, "random", &Counted::default(), 0, &[])),
             }
             watcher.done(2 * self.asked.lines);
         }
@@ -142,6 +130,17 @@ impl<'a> Place<'a> {
             stop: self.piece.rules.stop.to_string(),
             ..row
         }));
+    }
+
+    fn aim<'b, T: Planes>(&self, subject: &'b Subject<'b, T>) -> Aim<'b, T> {
+        let lines = self.lines;
+        Aim { subject, lines }
+    }
+
+    /// The metric's lines.
+    fn random<T: Planes<Vector: Exact>>(&self, subject: &Subject<'_, T>) -> Vec<Line<T::Vector>> {
+        let aim = self.aim(subject);
+        aim.drawn(0..self.asked.lines).collect()
     }
 
     /// The rows of one kernel, and what is to be timed of it.
@@ -177,19 +176,21 @@ impl<'a> Place<'a> {
         let refused = kernel != Kernel::F64 && fitness(&self.tree.world).is_err();
         let (lines, enough) = if refused {
             let few = &lines[..OF_REFUSED.min(lines.len())];
-            let visits: u64 = judge::<M, T>(subject, few, 0, &score).hits.iter().sum();
+            let visits: u64 = count::<M, T>(subject, few, 0, &score).hits.iter().sum();
             let affordable = MOST_VISITS * few.len() as f64 / visits.max(1) as f64;
             let most = (affordable as usize).clamp(few.len(), lines.len());
             (&lines[..most], few.len())
         } else {
             (lines, lines.len())
         };
-        let aimed = subject.aimed(lines, self.lines.seed);
+        let aim = self.aim(subject);
+        let at = |i: u64| [Against::Box, Against::Triangle][(i % 2) as usize];
+        let aimed: Vec<_> = aim.aimed(0..lines.len() as u64, at).collect();
         for (family, lines) in [("random", lines), ("aimed", &aimed)] {
-            let judged = judge::<M, T>(subject, lines, enough, &score);
+            let counted = count::<M, T>(subject, lines, enough, &score);
             found
                 .precision
-                .push(self.row(kernel, family, &judged, lines.len() as u64, &p));
+                .push(self.row(kernel, family, &counted, lines.len() as u64, &p));
         }
         timed.extend(passes::<M, T>(
             kernel.name(),
@@ -203,7 +204,7 @@ impl<'a> Place<'a> {
         &self,
         kernel: Kernel,
         family: &str,
-        judged: &Judged,
+        counted: &Counted,
         lines: u64,
         p: &[f64],
     ) -> PrecisionRecord {
@@ -214,10 +215,14 @@ impl<'a> Place<'a> {
             (_, Err(_)) => "refused",
         };
         let n = lines as f64;
-        let mean = judged.scores[0] / n;
-        let variance = (judged.scores[1] / n - mean * mean) / (n - 1.0);
+        let mean = counted.scores[0] / n;
+        let variance = (counted.scores[1] / n - mean * mean) / (n - 1.0);
         let by_area = family == "random" && lines > 1;
-        let [visits, hits] = [&judged.visits, &judged.tests].map(Rate::of);
+        let Counted {
+            nodes, triangles, ..
+        } = counted;
+        let visits = Rate::of(nodes, nodes.hits);
+        let hits = Rate::of(triangles, triangles.cases);
         PrecisionRecord {
             cell: self.piece.id.clone(),
             scene: self.piece.scene.name.clone(),
@@ -228,24 +233,24 @@ impl<'a> Place<'a> {
             verdict: verdict.into(),
             resolution,
             lines,
-            visits: judged.visits.judged,
-            wrong_visits: judged.visits.wrong,
-            missed_visits: judged.visits.missed,
-            tied_visits: judged.visits.tied(),
-            tied_missed_visits: judged.visits.tied_missed,
+            visits: nodes.hits,
+            wrong_visits: nodes.wrong,
+            missed_visits: nodes.missed,
+            tied_visits: nodes.tied_errors(),
+            tied_missed_visits: nodes.tied_missed,
             visits_per_1e9: visits.map(|r| r.rate),
             visits_per_1e9_lo: visits.map(|r| r.lo),
             visits_per_1e9_hi: visits.map(|r| r.hi),
-            tests: judged.tests.judged,
-            wrong_hits: judged.tests.wrong,
-            missed_hits: judged.tests.missed,
-            tied_hits: judged.tests.tied(),
+            tests: triangles.cases,
+            wrong_hits: triangles.wrong,
+            missed_hits: triangles.missed,
+            tied_hits: triangles.tied_errors(),
             hits_per_1e9: hits.map(|r| r.rate),
             hits_per_1e9_lo: hits.map(|r| r.lo),
             hits_per_1e9_hi: hits.map(|r| r.hi),
             slope_error: by_area.then_some(mean - 1.0),
             slope_se: by_area.then(|| variance.max(0.0).sqrt()),
-            max_z: by_area.then(|| largest_z(&judged.hits, p, n)).flatten(),
+            max_z: by_area.then(|| largest_z(&counted.hits, p, n)).flatten(),
             flat_nodes: p.iter().filter(|p| **p == 0.0).count() as u64,
         }
     }

@@ -3,9 +3,9 @@
 use glam::DVec3;
 
 use crate::geom::{Line, Object, Ray, Span};
+use crate::study::incidence::TIE;
 
 use super::case::{Case, Check, Finding, Group, Outcome};
-use super::judge::TIE;
 
 /// A ray against an object, and the t of its first hit by hand.
 pub struct First {

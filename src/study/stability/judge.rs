@@ -1,35 +1,15 @@
 //! One line against one box or triangle: what a kernel says, and what the exact oracle says of the very numbers it was given.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
-use crate::exact::{Meeting, line_box, line_triangle};
-use crate::geom::{Aabb, Line, Ray, Span, Triangle, Vector};
+use crate::geom::{Aabb, Line, Ray, Span, Triangle};
 use crate::kd::narrow::{Refusal, narrow_line};
+use crate::study::incidence::exact_line;
 use crate::study::kernel::Kernel;
 
 use super::case::{Finding, Outcome};
 
-/// Distance from a tie, in units of the kernel's last place, below which a wrong verdict is one of rounding.
-pub const TIE: f64 = 8.0;
-
-/// A unit of the last place of a kernel's numbers, in units of that of `f64`.
-pub fn last_place(kernel: Kernel) -> f64 {
-    match kernel {
-        Kernel::F64 => 1.0,
-        Kernel::F32 | Kernel::F32Padded => f64::from(f32::EPSILON) / f64::EPSILON,
-    }
-}
-
-/// What a kernel says of a pair, and what is right.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Judged {
-    /// Whether the kernel says they meet.
-    pub said: bool,
-    /// Whether they do.
-    pub exact: bool,
-    /// Distance from a tie in units of the last place of the kernel's numbers.
-    pub ulps: f64,
-}
+pub use crate::study::incidence::Judged;
 
 impl Judged {
     /// The same words for what is expected and what is measured.
@@ -81,29 +61,22 @@ pub fn line_and_box(
     b: &Aabb,
     f64_test: BoxTest,
 ) -> Result<Judged, Refusal> {
-    let (said, exact) = match kernel {
-        Kernel::F64 => (f64_test(b, line), line_box(line.origin, line.direction, b)),
-        Kernel::F32 | Kernel::F32Padded => {
-            let line = narrow_line(line)?;
-            let b = Aabb {
-                lo: b.lo.as_vec3(),
-                hi: b.hi.as_vec3(),
-            };
-            let span = if kernel == Kernel::F32 {
-                b.clip(&line, Span::FULL)
-            } else {
-                b.clip_conservative(&line, Span::FULL)
-            };
-            let wide = Aabb::new(b.lo.as_dvec3(), b.hi.as_dvec3());
-            let [o, d] = [line.origin, line.direction].map(Vec3::as_dvec3);
-            (span.is_some(), line_box(o, d, &wide))
-        }
+    if kernel == Kernel::F64 {
+        return Ok(Judged::of_box::<DVec3>(f64_test(b, line), line, b));
+    }
+    let line = narrow_line(line)?;
+    let b = Aabb {
+        lo: b.lo.as_vec3(),
+        hi: b.hi.as_vec3(),
     };
-    Ok(Judged {
-        said,
-        exact: exact.hit,
-        ulps: exact.ulps / last_place(kernel),
-    })
+    let span = if kernel == Kernel::F32Padded {
+        b.clip_conservative(&line, Span::FULL)
+    } else {
+        b.clip(&line, Span::FULL)
+    };
+    let exact = Aabb::new(b.lo.as_dvec3(), b.hi.as_dvec3());
+    let said = span.is_some();
+    Ok(Judged::of_box::<Vec3>(said, &exact_line(&line), &exact))
 }
 
 /// A whole line against a triangle. One in its plane, or a triangle without area, is no hit.
@@ -112,27 +85,11 @@ pub fn line_and_triangle(
     line: &Line,
     triangle: &Triangle,
 ) -> Result<Judged, Refusal> {
-    fn said<V: Vector>(line: &Line<V>, triangle: &Triangle<V>) -> bool {
-        triangle.intersect(&Ray::new(*line, Span::FULL)).is_some()
-    }
-    let (said, exact) = match kernel {
-        Kernel::F64 => (
-            said(line, triangle),
-            line_triangle(line.origin, line.direction, &triangle.0),
-        ),
+    Ok(match kernel {
+        Kernel::F64 => Judged::of_triangle(&Ray::new(*line, Span::FULL), triangle),
         Kernel::F32 | Kernel::F32Padded => {
-            let line = narrow_line(line)?;
-            let narrow = Triangle(triangle.0.map(|p| p.as_vec3()));
-            let [o, d] = [line.origin, line.direction].map(Vec3::as_dvec3);
-            (
-                said(&line, &narrow),
-                line_triangle(o, d, &narrow.0.map(Vec3::as_dvec3)),
-            )
+            let ray = Ray::new(narrow_line(line)?, Span::FULL);
+            Judged::of_triangle(&ray, &Triangle(triangle.0.map(|p| p.as_vec3())))
         }
-    };
-    Ok(Judged {
-        said,
-        exact: matches!(exact.meeting, Meeting::Hit(_)),
-        ulps: exact.ulps / last_place(kernel),
     })
 }

@@ -1,7 +1,6 @@
 //! The experiment `stability`: named hard cases with their exact outcome, by every strategy and kernel; random cases held against
 //! exact integers; trees and lines transformed together.
 
-mod aim;
 pub mod asked;
 mod boxes;
 pub mod case;
@@ -10,7 +9,6 @@ mod cones;
 pub mod files;
 mod first_hit;
 mod guard;
-mod incidence;
 mod judge;
 mod leaks;
 mod lines;

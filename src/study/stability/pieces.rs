@@ -6,6 +6,7 @@ use crate::kd::Rules;
 use crate::scene::Scene;
 use crate::study::hits::cell::plant;
 use crate::study::identity::{content, digest, line_seed, whole};
+use crate::study::incidence::Against;
 use crate::study::kernel::Kernel;
 use crate::study::records::CaseRecord;
 use crate::study::resume::Extent;
@@ -14,7 +15,7 @@ use crate::study::{Plan, SCHEMA};
 use super::case::{Case, Check, Finding, Group, Outcome};
 use super::catalogue::select;
 use super::guard::{guarded, in_plain_threads};
-use super::random::{Against, Bench};
+use super::random::Bench;
 use super::{Found, Stability, metamorphic};
 
 /// One piece.

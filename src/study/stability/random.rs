@@ -5,20 +5,18 @@
 //! Lines are the metric's own, or aimed at edges and corners. They come in waves of a fixed number, so that the pairs do not depend on the number of
 //! threads.
 
-use std::collections::BTreeMap;
-
 use rayon::prelude::*;
 
 use crate::geom::Line;
 use crate::kd::narrow::Refusal;
-use crate::kd::{NodeKind, Tree};
+use crate::kd::{Counting, Mode, NarrowTree, Planes, Tracing, Tree};
+use crate::rays::SurfaceLines;
 use crate::scene::Scene;
+use crate::study::incidence::{
+    Against, Aim, Exact, Judged, Narrow, Pair, Subject, Tally, Visits, exact_line, nodes, triangles,
+};
 use crate::study::kernel::Kernel;
 use crate::study::records::{RandomRecord, TieRecord};
-
-use super::aim::Aim;
-use super::incidence::{KernelTree, Seen, Tally};
-use super::judge::{last_place, line_and_triangle};
 
 /// Lines of a wave, and of a piece of it.
 const WAVE: u64 = 256;
@@ -26,25 +24,6 @@ const PIECE: u64 = 32;
 
 /// Ties told of each row.
 const TOLD: usize = 25;
-
-/// What lines are held against.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
-    /// The boxes of nodes, by the traversal.
-    Box,
-    /// Triangles, by the object test.
-    Triangle,
-}
-
-impl Against {
-    /// The name in files.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::Box => "box",
-            Self::Triangle => "triangle",
-        }
-    }
-}
 
 /// A tree of a scene, and what to judge of it.
 pub struct Bench<'a> {
@@ -58,21 +37,24 @@ pub struct Bench<'a> {
     pub seed: u64,
 }
 
-/// A wrongly judged tie.
-struct Tie {
-    target: u32,
-    ulps: f64,
-    exact: bool,
-    line: Line,
+/// What is held against what.
+#[derive(Clone, Copy)]
+struct Family {
+    against: Against,
+    aimed: bool,
 }
 
-type Judged = Result<(Tally, Vec<Tie>), Refusal>;
+/// A wrongly judged tie, and its line in exact numbers.
+struct Tie {
+    pair: Pair,
+    line: Line,
+}
 
 impl Bench<'_> {
     /// At least so many pairs of one family by one kernel.
     ///
     /// # Errors
-    /// If the kernel has no such tree or line.
+    /// If the kernel has no such tree.
     pub fn judge(
         &self,
         kernel: Kernel,
@@ -80,39 +62,44 @@ impl Bench<'_> {
         aimed: bool,
         pairs: u64,
     ) -> Result<(RandomRecord, Vec<TieRecord>), Refusal> {
-        let in_kernel = KernelTree::of(kernel, self.tree)?;
-        let aim = Aim {
-            scene: self.scene,
-            tree: self.tree,
-            seed: self.seed,
-            against,
-        };
-        let piece = |first: u64| -> Judged {
-            let mut seen = Seen::default();
-            let (mut tally, mut ties) = (Tally::default(), Vec::new());
-            for i in first..first + PIECE {
-                let line = if aimed { aim.aimed(i) } else { aim.drawn(i) };
-                match against {
-                    Against::Box => {
-                        boxes(kernel, &in_kernel, &line, &mut seen, &mut tally, &mut ties)?
-                    }
-                    Against::Triangle => {
-                        let near = self.near(&in_kernel, &line, &mut seen)?;
-                        self.triangles(kernel, &line, &near, &mut tally, &mut ties)?
-                    }
-                }
+        let family = Family { against, aimed };
+        let corners = &self.scene.objects.triangles;
+        let narrow = || NarrowTree::of(self.tree).map(|(tree, _)| Narrow::new(tree, corners));
+        let (tally, ties) = match kernel {
+            Kernel::F64 => {
+                self.pairs::<Counting, _>(&Subject::new(self.tree, corners), family, pairs)
             }
-            Ok((tally, ties))
+            Kernel::F32 => self.pairs::<Counting, _>(&narrow()?.subject(), family, pairs),
+            Kernel::F32Padded => self.pairs::<Tracing, _>(&narrow()?.subject(), family, pairs),
         };
+        Ok(self.rows(kernel, family, tally, ties))
+    }
+
+    /// Waves of lines until there are so many pairs, and the first wrongly judged ties.
+    fn pairs<M: Mode, T: Planes<Vector: Exact> + Sync>(
+        &self,
+        subject: &Subject<'_, T>,
+        family: Family,
+        wanted: u64,
+    ) -> (Tally, Vec<Tie>)
+    where
+        T::Vector: Sync,
+    {
+        let lines = SurfaceLines {
+            world: self.scene.world,
+            seed: self.seed,
+        };
+        let aim = Aim { subject, lines };
         let (mut tally, mut ties) = (Tally::default(), Vec::new());
         let mut first = 0;
-        while tally.cases < pairs {
+        while tally.cases < wanted {
             let before = tally.cases;
             let begin = |k: u64| first + PIECE * k;
             let pieces = (0..WAVE / PIECE).into_par_iter().map(begin);
-            let judged: Vec<Judged> = pieces.map(piece).collect();
-            for result in judged {
-                let (more, found) = result?;
+            let judged: Vec<_> = pieces
+                .map(|first| piece::<M, T>(&aim, family, first))
+                .collect();
+            for (more, found) in judged {
                 tally += more;
                 ties.extend(found);
                 ties.truncate(TOLD);
@@ -122,63 +109,13 @@ impl Bench<'_> {
             }
             first += WAVE;
         }
-        Ok(self.rows(kernel, against, aimed, tally, ties))
-    }
-
-    /// The triangles of the leaves that the kernel visits or whose boxes the line meets, and whether a visited leaf holds them.
-    fn near(
-        &self,
-        tree: &KernelTree<'_>,
-        line: &Line,
-        seen: &mut Seen,
-    ) -> Result<BTreeMap<u32, bool>, Refusal> {
-        let line = tree.visit(line, seen)?;
-        let triangles = self.scene.objects.triangles.len() as u32;
-        let mut near = BTreeMap::new();
-        tree.judge(&line, seen, |node, visited, exact| {
-            if let NodeKind::Leaf { first, count } = self.tree.nodes[node as usize].kind()
-                && (visited || exact.hit)
-            {
-                for &object in self.tree.objects(first, count) {
-                    if object < triangles {
-                        *near.entry(object).or_insert(false) |= visited;
-                    }
-                }
-            }
-        });
-        Ok(near)
-    }
-
-    /// The triangles near a line: one is hit if a visited leaf holds it and its test says so.
-    fn triangles(
-        &self,
-        kernel: Kernel,
-        line: &Line,
-        near: &BTreeMap<u32, bool>,
-        tally: &mut Tally,
-        ties: &mut Vec<Tie>,
-    ) -> Result<(), Refusal> {
-        for (&object, &visited) in near {
-            let triangle = &self.scene.objects.triangles[object as usize];
-            let judged = line_and_triangle(kernel, line, triangle)?;
-            let ulps = judged.ulps * last_place(kernel);
-            if tally.add(kernel, judged.said && visited, judged.exact, ulps) {
-                ties.push(Tie {
-                    target: object,
-                    ulps: judged.ulps,
-                    exact: judged.exact,
-                    line: *line,
-                });
-            }
-        }
-        Ok(())
+        (tally, ties)
     }
 
     fn rows(
         &self,
         kernel: Kernel,
-        against: Against,
-        aimed: bool,
+        Family { against, aimed }: Family,
         tally: Tally,
         ties: Vec<Tie>,
     ) -> (RandomRecord, Vec<TieRecord>) {
@@ -194,20 +131,20 @@ impl Bench<'_> {
             wrong: tally.wrong,
             missed: tally.missed,
             ties: tally.ties,
-            tied_wrong: tally.tied_wrong + tally.tied_missed,
+            tied_wrong: tally.tied_errors(),
             tied_missed: tally.tied_missed,
         };
-        let tie = |tie: Tie| {
-            let (o, d) = (tie.line.origin, tie.line.direction);
+        let tie = |Tie { pair, line }: Tie| {
+            let (o, d) = (line.origin, line.direction);
             TieRecord {
                 scene: row.scene.clone(),
                 strategy: row.strategy.clone(),
                 kernel: row.kernel.clone(),
                 against: row.against.clone(),
                 family: row.family.clone(),
-                target: tie.target.into(),
-                ulps: tie.ulps,
-                exact: tie.exact,
+                target: pair.target.into(),
+                ulps: pair.judged.ulps,
+                exact: pair.judged.exact,
                 ox: o.x,
                 oy: o.y,
                 oz: o.z,
@@ -221,27 +158,33 @@ impl Bench<'_> {
     }
 }
 
-/// The nodes that the line visits or should.
-fn boxes(
-    kernel: Kernel,
-    tree: &KernelTree<'_>,
-    line: &Line,
-    seen: &mut Seen,
-    tally: &mut Tally,
-    ties: &mut Vec<Tie>,
-) -> Result<(), Refusal> {
-    let line = tree.visit(line, seen)?;
-    tree.judge(&line, seen, |node, visited, exact| {
-        if tally.add(kernel, visited, exact.hit, exact.ulps) {
-            ties.push(Tie {
-                target: node,
-                ulps: exact.ulps / last_place(kernel),
-                exact: exact.hit,
-                line,
-            });
+/// A piece of a wave: its verdicts, and its wrongly judged ties.
+fn piece<M: Mode, T: Planes<Vector: Exact>>(
+    aim: &Aim<'_, T>,
+    Family { against, aimed }: Family,
+    first: u64,
+) -> (Tally, Vec<Tie>) {
+    let mut visits = Visits::default();
+    let (mut tally, mut ties) = (Tally::default(), Vec::new());
+    let indices = first..first + PIECE;
+    let lines: Vec<_> = if aimed {
+        aim.aimed(indices, |_| against).collect()
+    } else {
+        aim.drawn(indices).collect()
+    };
+    for line in lines {
+        let visited = visits.follow::<M, T>(aim.subject.tree, &line);
+        let mut pairs = nodes(aim.subject, &line, visited);
+        if against == Against::Triangle {
+            pairs = triangles(aim.subject, &line, &pairs);
         }
-    });
-    Ok(())
+        tally += Tally::of_a_line(&pairs);
+        let wrong_tie = |judged: Judged| judged.errs() && judged.is_tie();
+        let wrong_ties = pairs.into_iter().filter(|pair| wrong_tie(pair.judged));
+        let line = exact_line(&line);
+        ties.extend(wrong_ties.map(|pair| Tie { pair, line }));
+    }
+    (tally, ties)
 }
 
 #[cfg(test)]

@@ -1,8 +1,7 @@
 //! Errors per 10^9 visits or tests.
 
 use crate::stats::clustered_interval;
-
-use super::judge::Errors;
+use crate::study::incidence::Tally;
 
 /// Level of the intervals of rates.
 const LEVEL: f64 = 0.95;
@@ -19,12 +18,13 @@ pub struct Rate {
 }
 
 impl Rate {
-    /// Of these errors; `None` where nothing was judged.
-    pub fn of(errors: &Errors) -> Option<Self> {
-        let scale = 1e9 / errors.judged as f64;
-        let [lo, hi] = clustered_interval(errors.all(), errors.squares, LEVEL).map(|m| scale * m);
-        (errors.judged > 0).then(|| Self {
-            rate: scale * errors.all() as f64,
+    /// Of the errors among so many; `None` where there are none.
+    pub fn of(tally: &Tally, among: u64) -> Option<Self> {
+        let scale = 1e9 / among as f64;
+        let errors = tally.errors();
+        let [lo, hi] = clustered_interval(errors, tally.squares, LEVEL).map(|m| scale * m);
+        (among > 0).then(|| Self {
+            rate: scale * errors as f64,
             lo,
             hi,
         })

@@ -6,10 +6,9 @@ use std::time::Instant;
 
 use crate::geom::{Line, Ray, Real, Span};
 use crate::kd::{Mode, NoProbe, Planes, Stack, Work, traverse};
+use crate::study::incidence::Subject;
 use crate::study::records::PassTiming;
 use crate::study::timing::{CHUNK, Minima, Timing, interleaved};
-
-use super::numbers::Subject;
 
 /// Most lines that are timed.
 pub const TIMED: usize = 1 << 14;

@@ -1,4 +1,4 @@
-//! What padding is for, on a small scene; and that triangles of missed leaves are judged.
+//! What padding is for, on a small scene.
 
 use super::verdicts::padded;
 use super::*;

@@ -1,6 +1,6 @@
 use super::*;
 use crate::cost::CostModel;
-use crate::kd::{Rules, StopRule, Strategy, build_objects};
+use crate::kd::{NodeKind, Rules, StopRule, Strategy, build_objects};
 
 fn scene_and_tree(name: &str) -> (Scene, Tree) {
     let scene = Scene::load(name).unwrap();

@@ -1,17 +1,19 @@
 //! All that is demanded of a tree and of a kernel's way through it.
 
-use crate::geom::{Object, Ray, Real, Triangle, Vector};
+use glam::Vec3;
+
+use crate::geom::{Object, Ray, Real, Span, Triangle, Vector};
 use crate::kd::audit::{audit, audit_clipped};
-use crate::kd::narrow::{narrow_line, narrow_triangles};
+use crate::kd::narrow::{Refusal, narrow_line};
 use crate::kd::stop::{automatic_depth, default_depth};
 use crate::kd::{
-    Counting, Hit, Mode, NoProbe, Planes, Rules, Stack, StopRule, Tracing, Tree, build_objects,
-    nearest, traverse,
+    Counting, Hit, Mode, NarrowTree, NoProbe, Planes, Rules, Stack, StopRule, Tracing, Tree,
+    build_objects, nearest, traverse,
 };
 use crate::scene::Scene;
+use crate::study::incidence::{Exact, Narrow, Subject, Tally, Visits, nodes};
 use crate::study::kernel::Kernel;
 use crate::study::stability::case::{Finding, Outcome};
-use crate::study::stability::incidence::{KernelTree, Seen, Tally};
 
 use super::TreeCase;
 use super::hard_rays::hard_rays;
@@ -40,11 +42,12 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
     }
     // Unpadded f32 promises nothing but to refuse what is too coarse for it.
     let demanded = kernel != Kernel::F32 || case.refused_in_f32;
-    let in_kernel = match KernelTree::of(kernel, &tree) {
-        Ok(_) if case.refused_in_f32 && kernel != Kernel::F64 => {
+    let narrow = (kernel != Kernel::F64).then(|| NarrowTree::of(&tree));
+    let narrow = match narrow.transpose() {
+        Ok(Some(_)) if case.refused_in_f32 => {
             return Finding::failed("refused in single precision", "taken");
         }
-        Ok(in_kernel) => in_kernel,
+        Ok(narrow) => narrow.map(|(narrow, _)| Narrow::new(narrow, &scene.objects.triangles)),
         Err(refusal) => {
             return Finding {
                 expected: if case.refused_in_f32 {
@@ -63,8 +66,11 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
         }
     };
     let rays = hard_rays(&scene, &tree);
-    let followed = visits(kernel, &in_kernel, &rays)
-        .and_then(|tally| Ok((tally, differing(&scene, &in_kernel, &rays)?)));
+    let followed = match &narrow {
+        None => Ok(in_f64(&scene, &tree, &rays)),
+        Some(narrow) if kernel == Kernel::F32 => in_f32::<Counting>(&scene, narrow, &rays),
+        Some(narrow) => in_f32::<Tracing>(&scene, narrow, &rays),
+    };
     match followed {
         Ok((tally, differing)) => {
             let Tally {
@@ -96,7 +102,7 @@ pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
         }
         Err(refusal) => Finding {
             expected,
-            measured: refusal,
+            measured: refusal.to_string(),
             outcome: Outcome::Refused,
             demanded,
         },
@@ -173,65 +179,66 @@ fn sound(case: &TreeCase, scene: &Scene, tree: &Tree, most: usize) -> Result<(),
 }
 
 /// Every node that the lines visit or should, judged.
-fn visits(kernel: Kernel, tree: &KernelTree<'_>, rays: &[Ray]) -> Result<Tally, String> {
-    let (mut tally, mut seen) = (Tally::default(), Seen::default());
+fn visits<M: Mode, T: Planes<Vector: Exact>>(
+    subject: &Subject<'_, T>,
+    rays: &[Ray<T::Vector>],
+) -> Tally {
+    let (mut tally, mut visits) = (Tally::default(), Visits::default());
     for ray in rays {
-        let exact = tree
-            .visit(&ray.line, &mut seen)
-            .map_err(|refusal| refusal.to_string())?;
-        tree.judge(&exact, &seen, |_, visited, exact| {
-            tally.add(kernel, visited, exact.hit, exact.ulps);
-        });
+        let visited = visits.follow::<M, T>(subject.tree, &ray.line);
+        tally += Tally::of_a_line(&nodes(subject, &ray.line, visited));
     }
-    Ok(tally)
+    tally
 }
 
-/// Rays whose nearest hit through the tree is not that of testing every object, bit for bit, or is not a number. `None` where the
-/// kernel has no test for the objects.
-fn differing(scene: &Scene, tree: &KernelTree<'_>, rays: &[Ray]) -> Result<Option<u64>, String> {
+/// The verdicts on what a kernel visits, and rays whose nearest hit through the tree is not that of testing every object, bit for
+/// bit, or is not a number. The latter `None` where the kernel has no test for the objects.
+type Followed = (Tally, Option<u64>);
+
+fn in_f64(scene: &Scene, tree: &Tree, rays: &[Ray]) -> Followed {
     let objects = &scene.objects;
+    let mut stack = Stack::default();
     let mut differing = 0;
-    match tree {
-        KernelTree::Wide(tree) => {
-            let mut stack = Stack::default();
-            for ray in rays {
-                let through = nearest(tree, objects, ray, &mut stack);
-                let mut best = None;
-                for number in 0..objects.len() as u32 {
-                    if let Some(t) = objects.intersect(number, ray) {
-                        best = Hit::nearer(best, number, t);
-                    }
-                }
-                let sane = through
-                    .is_none_or(|hit| hit.t.is_finite() && has_area(objects.get(hit.object)));
-                differing += u64::from(through != best || !sane);
+    for ray in rays {
+        let through = nearest(tree, objects, ray, &mut stack);
+        let mut best = None;
+        for number in 0..objects.len() as u32 {
+            if let Some(t) = objects.intersect(number, ray) {
+                best = Hit::nearer(best, number, t);
             }
         }
-        KernelTree::Narrow(_, narrow, padded) => {
-            let Ok(triangles) = narrow_triangles(objects) else {
-                return Ok(None);
-            };
-            for ray in rays {
-                let line = narrow_line(&ray.line).map_err(|refusal| refusal.to_string())?;
-                let span = crate::geom::Span {
-                    t0: ray.span.t0 as f32,
-                    t1: ray.span.t1 as f32,
-                };
-                let ray = Ray::new(line, span);
-                let through = if *padded {
-                    nearest_triangle::<Tracing, _>(narrow, &triangles, &ray)
-                } else {
-                    nearest_triangle::<Counting, _>(narrow, &triangles, &ray)
-                };
-                let mut best = None;
-                for number in 0..triangles.len() as u32 {
-                    best = nearer(best, number, &triangles, &ray);
-                }
-                differing += u64::from(through != best);
-            }
-        }
+        let sane = through.is_none_or(|hit| hit.t.is_finite() && has_area(objects.get(hit.object)));
+        differing += u64::from(through != best || !sane);
     }
-    Ok(Some(differing))
+    let subject = Subject::new(tree, &objects.triangles);
+    (visits::<Counting, _>(&subject, rays), Some(differing))
+}
+
+fn in_f32<M: Mode>(scene: &Scene, narrow: &Narrow, rays: &[Ray]) -> Result<Followed, Refusal> {
+    let subject = narrow.subject();
+    let narrow_ray = |ray: &Ray| {
+        let span = Span {
+            t0: ray.span.t0 as f32,
+            t1: ray.span.t1 as f32,
+        };
+        Ok(Ray::new(narrow_line(&ray.line)?, span))
+    };
+    let rays: Vec<Ray<Vec3>> = rays.iter().map(narrow_ray).collect::<Result<_, _>>()?;
+    let tally = visits::<M, _>(&subject, &rays);
+    let triangles = subject.triangles;
+    if triangles.len() < scene.objects.len() {
+        return Ok((tally, None));
+    }
+    let mut differing = 0;
+    for ray in &rays {
+        let through = nearest_triangle::<M, _>(subject.tree, triangles, ray);
+        let mut best = None;
+        for number in 0..triangles.len() as u32 {
+            best = nearer(best, number, triangles, ray);
+        }
+        differing += u64::from(through != best);
+    }
+    Ok((tally, Some(differing)))
 }
 
 fn has_area(object: Object<'_>) -> bool {
