@@ -23,7 +23,7 @@ impl Rate {
         let scale = 1e9 / among as f64;
         let errors = tally.errors();
         let [lo, hi] = clustered_interval(errors, tally.squares, LEVEL).map(|m| scale * m);
-        (among > 0).then(|| Self {
+        (among > 0).then_some(Self {
             rate: scale * errors as f64,
             lo,
             hi,
