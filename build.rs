@@ -47,7 +47,10 @@ fn collect(root: &Path, folder: &Path, files: &mut Vec<PathBuf>) {
         let path = folder.join(entry.file_name());
         if root.join(&path).is_dir() {
             collect(root, &path, files);
-        } else {
+        } else if path
+            .extension()
+            .is_some_and(|e| e == "rs" || e == "txt" || e == "ttf")
+        {
             files.push(path);
         }
     }

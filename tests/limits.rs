@@ -316,6 +316,11 @@ fn wrong_input_is_told_with_its_place() {
         "cases = [\"box-corner-tuch\"]\nrandom = ",
         "box-corner-touch",
     );
+    stability(
+        "random = ",
+        "cases = [\"box-corner-touch\", \"box-corner-touch\"]\nrandom = ",
+        "case 'box-corner-touch' is named twice",
+    );
     stability("\"f64\", ", "", "must name 'f64'");
     stability(
         "\"f64\", ",

@@ -197,10 +197,7 @@ impl NarrowTree {
 
     /// As [`of`](Self::of), for whoever wants to know what would come of it: only what cannot be stored is refused.
     pub fn however_coarse(tree: &Tree) -> Result<Self, Refusal> {
-        let world = Aabb {
-            lo: narrow_point(tree.world.lo)?,
-            hi: narrow_point(tree.world.hi)?,
-        };
+        let world = narrow_box(&tree.world)?;
         let nodes: Vec<Node> = tree
             .nodes
             .iter()
@@ -260,20 +257,30 @@ fn narrow_point(p: DVec3) -> Result<Vec3, Refusal> {
     }
 }
 
+/// A box, rounded to single precision.
+pub fn narrow_box(b: &Aabb) -> Result<Aabb<Vec3>, Refusal> {
+    Ok(Aabb {
+        lo: narrow_point(b.lo)?,
+        hi: narrow_point(b.hi)?,
+    })
+}
+
+/// A triangle, rounded to single precision.
+pub fn narrow_triangle(Triangle([a, b, c]): &Triangle) -> Result<Triangle<Vec3>, Refusal> {
+    Ok(Triangle([
+        narrow_point(*a)?,
+        narrow_point(*b)?,
+        narrow_point(*c)?,
+    ]))
+}
+
 /// The triangles of a scene, rounded to single precision; it must have no other objects.
 pub fn narrow_triangles(objects: &Objects) -> Result<Vec<Triangle<Vec3>>, Refusal> {
     let others = objects.len() - objects.triangles.len();
     if others > 0 {
         return Err(Refusal::NoTriangles(others));
     }
-    let narrow = |&Triangle([a, b, c]): &Triangle| {
-        Ok(Triangle([
-            narrow_point(a)?,
-            narrow_point(b)?,
-            narrow_point(c)?,
-        ]))
-    };
-    objects.triangles.iter().map(narrow).collect()
+    objects.triangles.iter().map(narrow_triangle).collect()
 }
 
 /// A line, rounded to single precision.

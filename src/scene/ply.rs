@@ -4,14 +4,14 @@
 //! neither `.5` nor `1.` for a number, and passes over what stands on a line beyond the declared properties, such as
 //! the corners of a face whose count is too small. Numbers of a text keep the precision they are written with.
 
-use std::collections::BTreeSet;
+mod header;
+
 use std::io::ErrorKind;
 
 use glam::DVec3;
-use ply_rs_bw::parser::{ParseError, Parser, Reader};
+use ply_rs_bw::parser::{ParseError, Parser};
 use ply_rs_bw::ply::{
     ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult, PropertyType,
-    ScalarType,
 };
 
 use super::SceneError;
@@ -22,10 +22,10 @@ const CORNERS: [&str; 2] = ["vertex_indices", "vertex_index"];
 
 /// The triangles of a PLY file.
 pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Mesh, SceneError> {
-    let (head, payload) = split(bytes).map_err(|(line, f)| f.at(path, line))?;
+    let (head, payload) = header::split(bytes).map_err(|(line, f)| f.at(path, line))?;
     let length = head.lines().count();
-    let header = header(&head).map_err(|(line, f)| f.at(path, line))?;
-    check(&header).map_err(|f| f.at(path, length))?;
+    let header = header::header(&head).map_err(|(line, f)| f.at(path, line))?;
+    header::check(&header).map_err(|f| f.at(path, length))?;
 
     let mut contents = Contents {
         path,
@@ -38,131 +38,6 @@ pub(super) fn parse(path: &str, bytes: &[u8]) -> Result<Mesh, SceneError> {
         contents.read_binary(&header, payload)?;
     }
     Ok(contents.mesh)
-}
-
-/// The header with its last line, and what follows.
-fn split(bytes: &[u8]) -> Result<(String, &[u8]), (usize, Fault)> {
-    let mut end = 0;
-    for (i, line) in bytes.split_inclusive(|&b| b == b'\n').enumerate() {
-        let text = line.trim_ascii();
-        if i == 0 && text != b"ply" {
-            let fault = Fault::new(
-                "this is not a PLY file",
-                "its first line must be 'ply', ended by a line feed",
-            );
-            return Err((1, fault));
-        }
-        end += line.len();
-        if text == b"end_header" {
-            let head = String::from_utf8_lossy(&bytes[..end]).into_owned();
-            return Ok((head, &bytes[end..]));
-        }
-    }
-    let count = bytes.iter().filter(|&&b| b == b'\n').count();
-    let fault = Fault::new(
-        "the file ends before its header does",
-        "a line 'end_header' must end the header",
-    );
-    Err((count.max(1), fault))
-}
-
-/// The header as the crate reads it.
-fn header(head: &str) -> Result<Header, (usize, Fault)> {
-    let mut reader = Reader::new(head.as_bytes());
-    let header = Parser::<Element>::new().read_header(&mut reader);
-    let header = header.map_err(|error| match error.line() {
-        Some(line) => {
-            let text = head.lines().nth(line - 1).unwrap_or_default();
-            let fault = Fault::new(
-                format!("cannot read the header line '{text}'"),
-                "header lines are 'format ENCODING 1.0', 'comment ...', 'obj_info ...', 'element NAME COUNT', \
-                 'property TYPE NAME' and 'property list TYPE TYPE NAME'",
-            );
-            (line, fault)
-        }
-        None => (
-            head.lines().count(),
-            Fault::new(
-                "the header has no line 'format'",
-                "ascii 1.0, binary_little_endian 1.0 or binary_big_endian 1.0 must be declared",
-            ),
-        ),
-    })?;
-    declared_once(head)?;
-    Ok(header)
-}
-
-/// Whether each name is declared once, and one list of a face's corners: of two declarations of a name the crate keeps the last,
-/// and of two lists neither is the better.
-fn declared_once(head: &str) -> Result<(), (usize, Fault)> {
-    let (mut elements, mut properties) = (BTreeSet::new(), BTreeSet::new());
-    let (mut element, mut lists) = ("", 0);
-    for (i, line) in head.lines().enumerate() {
-        let words: Vec<_> = line.split_whitespace().collect();
-        let first = match words[..] {
-            ["element", name, _] => {
-                properties.clear();
-                element = name;
-                elements.insert(name)
-            }
-            ["property", .., name] => properties.insert(name),
-            _ => true,
-        };
-        if !first {
-            let fault = Fault::new(
-                format!("'{line}' declares a name again"),
-                "the names of elements must differ, and so must those of an element's properties",
-            );
-            return Err((i + 1, fault));
-        }
-        if let ["property", "list", .., name] = words[..] {
-            lists += usize::from(element == "face" && CORNERS.contains(&name));
-        }
-        if lists > 1 {
-            let fault = Fault::new(
-                format!("'{line}' declares a second list of corners"),
-                "a face has one, 'vertex_indices' or 'vertex_index'",
-            );
-            return Err((i + 1, fault));
-        }
-    }
-    Ok(())
-}
-
-/// Whether the header declares a mesh.
-fn check(header: &Header) -> Result<(), Fault> {
-    let element = |name: &str| {
-        header.elements.get(name).ok_or_else(|| {
-            Fault::new(
-                format!("the header declares no element '{name}'"),
-                "a mesh has the elements 'vertex' and 'face' (strips are not read)",
-            )
-        })
-    };
-    let vertex = element("vertex")?;
-    for axis in ["x", "y", "z"] {
-        let scalar =
-            |p: &ply_rs_bw::ply::PropertyDef| matches!(p.data_type, PropertyType::Scalar(_));
-        if !vertex.properties.get(axis).is_some_and(scalar) {
-            return Err(Fault::new(
-                format!("vertices have no number '{axis}'"),
-                "'property float' or 'property double' must declare x, y and z",
-            ));
-        }
-    }
-    let face = element("face")?;
-    let list = CORNERS.iter().find_map(|name| face.properties.get(*name));
-    match list.map(|p| &p.data_type) {
-        Some(PropertyType::List(_, ScalarType::Float | ScalarType::Double)) => Err(Fault::new(
-            "the corners of faces are not whole numbers",
-            "they must be a list of int or uint",
-        )),
-        Some(PropertyType::List(..)) => Ok(()),
-        _ => Err(Fault::new(
-            "faces have no list of corners",
-            "'property list uchar int vertex_indices' must declare it",
-        )),
-    }
 }
 
 /// What has been read so far.

@@ -4,11 +4,11 @@
 //! take the place of those outside when the quick form is asked for.
 
 mod error;
+mod once;
 mod overrides;
 mod table;
 
 use std::collections::HashMap;
-use std::fmt::Display;
 use std::fs;
 use std::path::Path;
 
@@ -34,6 +34,7 @@ use super::{LEVEL, LineRule, SCHEMA};
 use error::Fault;
 pub(super) use error::wrong_unless;
 pub use error::{PlanError, Wrong};
+pub(super) use once::{each_once, none_twice};
 pub use overrides::Overrides;
 use table::{overlay, place};
 
@@ -423,34 +424,6 @@ impl Plan {
             | Kind::CostVsWork(_)
             | Kind::Stability(_) => {}
         }
-    }
-}
-
-/// At least one thing of this sort, none twice.
-pub(super) fn each_once<T: PartialEq + Display>(
-    key: &'static str,
-    sort: &str,
-    all: &[T],
-) -> Result<(), Wrong> {
-    wrong_unless(!all.is_empty(), key, || {
-        format!("{key} must name at least one")
-    })?;
-    none_twice(key, sort, all)
-}
-
-/// Nothing of this sort twice.
-pub(super) fn none_twice<T: PartialEq + Display>(
-    key: &'static str,
-    sort: &str,
-    all: &[T],
-) -> Result<(), Wrong> {
-    let again = |i: &usize| all[..*i].contains(&all[*i]);
-    match (1..all.len()).find(again) {
-        None => Ok(()),
-        Some(i) => Err(Wrong {
-            key,
-            message: format!("{sort} '{}' is named twice", all[i]),
-        }),
     }
 }
 

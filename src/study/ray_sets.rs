@@ -155,7 +155,7 @@ pub struct Number {
 }
 
 /// Most rays of a set that a wanted error may ask for: each takes 64 bytes.
-pub(super) const MOST_RAYS: u64 = 1 << 22;
+const MOST_RAYS: u64 = 1 << 22;
 
 impl Number {
     /// Whether the wanted error can be one.

@@ -32,6 +32,21 @@ fn other_elements_are_passed_over() {
     assert_eq!(scene.objects.triangles[0].0[1], DVec3::X);
 }
 
+/// A number of one of the two names that the list of corners may have is no list.
+#[test]
+fn numbers_named_like_corners_are_passed_over() {
+    for (list, number) in [
+        ("vertex_index", "vertex_indices"),
+        ("vertex_indices", "vertex_index"),
+    ] {
+        let text = header("ascii", 4, 1) + PLY_SQUARE + "7 3 0 1 2\n";
+        let both = format!("property int {number}\nproperty list uchar int {list}\n");
+        let text = text.replace("property list uchar int vertex_indices\n", &both);
+        assert!(text.contains(&both), "{text}");
+        assert_eq!(counted(&good("a.ply", text)).0, 1);
+    }
+}
+
 #[test]
 fn binary_of_both_kinds() {
     let faces = [vec![0, 1, 2], vec![0, 1, 2, 3]];

@@ -57,32 +57,36 @@ impl Table {
                 .collect()
         };
         let rows: Vec<Vec<String>> = self.rows.iter().map(show).collect();
-        let columns = 0..self.columns.len();
-        let cells = columns.map(|i| rows.iter().map(|row| length(&row[i])).max().unwrap_or(0));
-        let cells: Vec<usize> = cells.collect();
-        let titles = || self.columns.iter().map(|column| column.title.as_str());
-        let whole: Vec<usize> = titles()
-            .zip(&cells)
-            .map(|(t, &w)| length(t).max(w))
+        let widest = |i: usize| rows.iter().map(|row| length(&row[i])).max();
+        let cells: Vec<usize> = (0..self.columns.len())
+            .map(|i| widest(i).unwrap_or(0))
             .collect();
-        let folded = titles().zip(&cells).map(|(title, &widest)| {
-            let fits = length(title) <= widest || self.blocks(&whole, width).len() == 1;
-            if fits {
+        let headings = self.headings(&cells, width);
+        let wide = |(i, cells): (usize, usize)| {
+            let [above, below] = headings.each_ref().map(|line| length(&line[i]));
+            above.max(below).max(cells)
+        };
+        Texts {
+            widths: cells.into_iter().enumerate().map(wide).collect(),
+            headings,
+            rows,
+        }
+    }
+
+    /// Headings in two lines, above cells of these widths.
+    fn headings(&self, cells: &[usize], width: usize) -> [Vec<String>; 2] {
+        let titles = || self.columns.iter().map(|column| column.title.as_str());
+        let whole = titles().zip(cells).map(|(t, &cells)| length(t).max(cells));
+        let all_fit = self.blocks(&whole.collect::<Vec<_>>(), width).len() == 1;
+        let folded = titles().zip(cells).map(|(title, &cells)| {
+            if all_fit || length(title) <= cells {
                 [String::new(), title.to_owned()]
             } else {
                 fold_heading(title)
             }
         });
-        let (above, below): (Vec<String>, Vec<String>) = folded.map(|[a, b]| (a, b)).unzip();
-        let headings = above.iter().zip(&below);
-        let widths = headings
-            .zip(cells)
-            .map(|((a, b), cells)| length(a).max(length(b)).max(cells));
-        Texts {
-            widths: widths.collect(),
-            headings: [above, below],
-            rows,
-        }
+        let (above, below) = folded.map(|[above, below]| (above, below)).unzip();
+        [above, below]
     }
 
     /// Columns that stand beside each other in a text of this width, the row names first each time.

@@ -2,7 +2,6 @@
 
 use crate::stats::normal_quantile;
 use crate::study::LineRule;
-use crate::study::ray_sets::MOST_RAYS;
 use crate::study::records::{CellRecord, Verdict, WorkRecord};
 
 use super::CONFIDENCE;
@@ -12,91 +11,110 @@ pub struct Known {
     place: String,
     /// The relative error that was wanted.
     wanted: f64,
-    /// Half of the 95 % interval over C; `None` where what was counted cannot tell it, as it hangs on events too rare for that.
-    share: Option<f64>,
-    /// Whether as many were counted as [`needed`](super::needed) asked for, which reckons with such events.
-    enough: bool,
+    /// How far C may be off, over C.
+    off: Off,
 }
 
-impl Known {
-    fn new(place: String, wanted: f64, (c, se): (f64, Option<f64>), enough: bool) -> Self {
+/// How far a C may be off.
+enum Off {
+    /// By no more than this, with 95 %: half of its interval.
+    Within(f64),
+    /// By this from the one that areas predict: its variance hangs on events too rare for the pilot, which tells no interval.
+    Predicted(f64),
+    /// Nothing tells.
+    Unknown,
+}
+
+impl Off {
+    fn of(c: f64, se: Option<f64>) -> Option<Self> {
         let z = normal_quantile(CONFIDENCE);
-        let share = |se: f64| if se <= 0.0 { 0.0 } else { z * se / c };
-        Self {
-            place,
-            wanted,
-            share: se.map(share),
-            enough,
+        se.map(|se| Self::Within(if se <= 0.0 { 0.0 } else { z * se / c }))
+    }
+
+    fn share(&self) -> f64 {
+        match self {
+            Self::Within(share) | Self::Predicted(share) => *share,
+            Self::Unknown => f64::INFINITY,
         }
     }
 }
 
 /// Of cells whose lines a wanted error settles; none where something else does.
 pub fn of_cells(rule: &LineRule, cells: &[CellRecord]) -> Vec<Known> {
-    let [_, most] = rule.bounds();
-    let one = |(wanted, r): (f64, &CellRecord)| {
-        let place = format!("{} on {}", r.strategy, r.scene);
-        Known::new(place, wanted, (r.c_counted, r.c_se), r.lines < most)
-    };
     let wanted = rule.cost_error().into_iter();
+    let one = |wanted: f64, r: &CellRecord| Known {
+        place: format!("{} on {}", r.strategy, r.scene),
+        wanted,
+        off: Off::of(r.c_counted, r.c_se)
+            .unwrap_or_else(|| Off::Predicted((r.c_counted / r.c_predicted - 1.0).abs())),
+    };
     wanted
-        .flat_map(|e| cells.iter().map(move |r| (e, r)))
-        .map(one)
+        .flat_map(|e| cells.iter().map(move |r| one(e, r)))
         .collect()
 }
 
 /// Of the rays of sources, whose number a wanted error settles; none where no error was wanted.
 pub fn of_rays(error: Option<f64>, work: &[&WorkRecord]) -> Vec<Known> {
-    let one = |(wanted, r): (f64, &WorkRecord)| {
-        let place = format!("{} of {} on {}", r.rays, r.strategy, r.scene);
-        Known::new(place, wanted, (r.c_counted, r.c_se), r.cast < MOST_RAYS)
+    let one = |wanted: f64, r: &WorkRecord| Known {
+        place: format!("{} of {} on {}", r.rays, r.strategy, r.scene),
+        wanted,
+        off: Off::of(r.c_counted, r.c_se).unwrap_or(Off::Unknown),
     };
     let sampled = || work.iter().filter(|r| !r.complete && r.entered > 0);
     let wanted = error.into_iter();
     wanted
-        .flat_map(|e| sampled().map(move |r| (e, *r)))
-        .map(one)
+        .flat_map(|e| sampled().map(move |r| one(e, r)))
         .collect()
 }
 
-/// By the standard error of what was counted; where that has none, by the variance that settled how much was counted: the
-/// wanted error is kept if as much was.
+/// Whether all are kept: by the interval of what was counted; where it has none, by what areas predict.
 pub fn verdict(all: &[Known]) -> Option<Verdict> {
-    let (told, untold): (Vec<&Known>, Vec<_>) = all.iter().partition(|one| one.share.is_some());
-    let (settled, unknown): (Vec<&Known>, Vec<_>) = untold.into_iter().partition(|one| one.enough);
-    let shares = || told.iter().filter_map(|one| Some((one.share?, *one)));
-    let within = shares().filter(|(share, one)| *share <= one.wanted).count() + settled.len();
+    let kept = |one: &&Known| one.off.share() <= one.wanted;
+    let within = all.iter().filter(kept).count();
     let mut wanted: Vec<f64> = all.iter().map(|one| one.wanted).collect();
     wanted.dedup();
-    let wanted: Vec<String> = wanted
-        .iter()
-        .map(|e| format!("± {} %", 100.0 * e))
-        .collect();
+    let wanted: Vec<String> = wanted.into_iter().map(percent).collect();
     let mut message = format!(
-        "95 % interval of C within {} in {within} of {} cases",
+        "95 % interval of C within ± {} in {within} of {} cases",
         wanted.join(" or "),
         all.len()
     );
-    if let Some((share, one)) = shares().max_by(|a, b| a.0.total_cmp(&b.0)) {
-        message += &format!("; widest {:.3} % ({})", 100.0 * share, one.place);
+    let widest = |pick: fn(&Off) -> bool| {
+        let some = all.iter().filter(move |one| pick(&one.off));
+        let widest = some
+            .clone()
+            .max_by(|a, b| a.off.share().total_cmp(&b.off.share()));
+        widest.map(|one| (some.count(), percent(one.off.share()), &one.place))
+    };
+    if let Some((_, share, place)) = widest(|off| matches!(off, Off::Within(_))) {
+        message += &format!("; widest {share} ({place})");
     }
-    if !settled.is_empty() {
+    if let Some((count, share, place)) = widest(|off| matches!(off, Off::Predicted(_))) {
         message += &format!(
-            "; {} judged by the variance that settled their lines, as it hangs on events too rare for the pilot",
-            settled.len()
+            "; {count} without an interval, as their variance hangs on events too rare for the pilot, off the C that areas predict by \
+             at most {share} ({place})"
         );
     }
-    if !unknown.is_empty() {
-        message += &format!(
-            "; {} not known: their variance hangs on events too rare for as many as may be counted",
-            unknown.len()
-        );
+    if let Some((count, ..)) = widest(|off| matches!(off, Off::Unknown)) {
+        message += &format!("; {count} not known: fewer than two rays entered");
     }
     (!all.is_empty()).then(|| Verdict {
         name: "error".into(),
         held: within == all.len(),
         message,
     })
+}
+
+/// A share in per cent, to three digits at most.
+fn percent(share: f64) -> String {
+    let percent = 100.0 * share;
+    let scale = libm::exp10(2.0 - libm::floor(libm::log10(percent)));
+    let rounded = if scale.is_finite() {
+        (percent * scale).round() / scale
+    } else {
+        percent
+    };
+    format!("{rounded} %")
 }
 
 #[cfg(test)]
@@ -109,44 +127,42 @@ mod tests {
 
     const WANTED: f64 = 0.01;
 
-    /// A cell of C = 100.
-    fn cell(se: Option<f64>, lines: u64) -> CellRecord {
+    /// A cell whose C came out as this; 100 was predicted.
+    fn cell(c_counted: f64, c_se: Option<f64>) -> CellRecord {
         CellRecord {
-            c_counted: 100.0,
-            c_se: se,
-            lines,
+            c_predicted: 100.0,
+            c_counted,
+            c_se,
             ..CellRecord::default()
         }
     }
 
     #[test]
-    fn what_the_count_cannot_tell_is_kept_if_enough_was_counted() {
+    fn what_the_count_cannot_tell_is_held_against_areas() {
         let rule = LineRule::for_cost_error(WANTED).expect("a rule");
-        let [_, most] = rule.bounds();
         let told = |cells: &[CellRecord]| {
             let verdict = verdict(&of_cells(&rule, cells)).expect("an error was wanted");
             (verdict.held, verdict.message)
         };
-        let (fine, wide) = (cell(Some(0.5), 9000), cell(Some(0.6), 9000));
+        let (fine, wide) = (cell(100.0, Some(0.5)), cell(100.0, Some(0.6)));
         assert!(told(std::slice::from_ref(&fine)).0 && !told(&[fine.clone(), wide]).0);
-        let (held, message) = told(&[fine.clone(), cell(None, 9000)]);
+        let (held, message) = told(&[fine.clone(), cell(99.5, None)]);
         assert!(
-            held && message.contains("in 2 of 2 cases; widest 0.980 %"),
+            held && message.contains("in 2 of 2 cases; widest 0.98 %"),
             "{message}"
         );
         assert!(
-            message.contains("1 judged by the variance that settled"),
+            message.contains("1 without an interval") && message.contains("at most 0.5 %"),
             "{message}"
         );
-        let (held, message) = told(&[fine, cell(None, most)]);
+        let (held, message) = told(&[fine, cell(98.5, None)]);
         assert!(!held && message.contains("in 1 of 2 cases"), "{message}");
-        assert!(message.contains("1 not known"), "{message}");
     }
 
     #[test]
     fn only_what_an_error_settled_is_judged() {
         let fixed = LineRule::exactly(4096).expect("a rule");
-        assert!(of_cells(&fixed, &[cell(Some(50.0), 4096)]).is_empty());
+        assert!(of_cells(&fixed, &[cell(100.0, Some(50.0))]).is_empty());
         let rays = WorkRecord {
             c_counted: 100.0,
             c_se: Some(0.6),
@@ -158,9 +174,22 @@ mod tests {
         assert!(!missed.held, "{}", missed.message);
         let all = WorkRecord {
             complete: true,
-            ..rays
+            ..rays.clone()
         };
         assert!(of_rays(Some(WANTED), &[&all]).is_empty());
+        let one = WorkRecord {
+            c_se: None,
+            entered: 1,
+            ..rays
+        };
+        let unknown = verdict(&of_rays(Some(WANTED), &[&one])).expect("an error was wanted");
+        assert!(!unknown.held && unknown.message.contains("1 not known"));
+    }
+
+    #[test]
+    fn per_cents_are_short() {
+        let told = [0.07, 0.001, 0.123_456, 0.0, 12.0].map(percent);
+        assert_eq!(told, ["7 %", "0.1 %", "12.3 %", "0 %", "1200 %"]);
     }
 
     /// The leaves of a tree's twigs are rare: the pilot's standard error is none, but the lines are enough.
@@ -181,7 +210,6 @@ mod tests {
             .collect();
         let r = &cells[0];
         assert_eq!(r.c_se, None);
-        assert!((r.c_counted / r.c_predicted - 1.0).abs() <= WANTED);
         let verdict = verdict(&of_cells(&rule, &cells)).expect("an error was wanted");
         assert!(verdict.held, "{}", verdict.message);
     }

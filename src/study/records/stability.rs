@@ -75,7 +75,8 @@ pub struct TieRecord {
     pub family: String,
     /// Number of the node or triangle.
     pub target: u64,
-    /// How near the tie is, in ulp.
+    /// How near the tie is, in the units of [`Incidence::ulps`](crate::exact::Incidence::ulps) or
+    /// [`Crossing::ulps`](crate::exact::Crossing::ulps), scaled to the kernel's numbers.
     pub ulps: f64,
     /// Whether the line meets it, exactly.
     pub exact: bool,

@@ -4,7 +4,7 @@ use serde::Deserialize;
 
 use crate::kd::{StopRule, Strategy};
 use crate::study::kernel::Kernel;
-use crate::study::plan::{Wrong, each_once, wrong_unless};
+use crate::study::plan::{Wrong, each_once, none_twice, wrong_unless};
 
 /// The keys of this kind. The catalogue of hard cases goes through every strategy and kernel; `scenes` are those of the random
 /// cases and of the metamorphic checks.
@@ -41,6 +41,7 @@ impl Stability {
     /// Whether the values make sense together and with the scenes.
     pub fn check(&self, _scenes: &[String]) -> Result<(), Wrong> {
         each_once("strategies", "strategy", &self.strategies)?;
+        none_twice("cases", "case", self.cases.as_deref().unwrap_or_default())?;
         let known = super::catalogue::select(self.cases.as_deref());
         wrong_unless(known.is_ok(), "cases", || known.err().unwrap_or_default())?;
         each_once("kernels", "kernel", &self.kernels)?;

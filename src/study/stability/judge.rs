@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 
 use crate::geom::{Aabb, Line, Ray, Span, Triangle};
-use crate::kd::narrow::{Refusal, narrow_line};
+use crate::kd::narrow::{Refusal, narrow_box, narrow_line, narrow_triangle};
 use crate::study::incidence::exact_line;
 use crate::study::kernel::Kernel;
 
@@ -65,10 +65,7 @@ pub fn line_and_box(
         return Ok(Judged::of_box::<DVec3>(f64_test(b, line), line, b));
     }
     let line = narrow_line(line)?;
-    let b = Aabb {
-        lo: b.lo.as_vec3(),
-        hi: b.hi.as_vec3(),
-    };
+    let b = narrow_box(b)?;
     let span = if kernel == Kernel::F32Padded {
         b.clip_conservative(&line, Span::FULL)
     } else {
@@ -89,7 +86,7 @@ pub fn line_and_triangle(
         Kernel::F64 => Judged::of_triangle(&Ray::new(*line, Span::FULL), triangle),
         Kernel::F32 | Kernel::F32Padded => {
             let ray = Ray::new(narrow_line(line)?, Span::FULL);
-            Judged::of_triangle(&ray, &Triangle(triangle.0.map(|p| p.as_vec3())))
+            Judged::of_triangle(&ray, &narrow_triangle(triangle)?)
         }
     })
 }

@@ -53,7 +53,11 @@ fn term(text: &str) -> f64 {
     match text.split_once("2^") {
         Some((sign, k)) => {
             let power = libm::ldexp(1.0, k.parse().expect(FIXED));
-            if sign == "-" { -power } else { power }
+            match sign {
+                "" | "+" => power,
+                "-" => -power,
+                _ => panic!("{FIXED}: {text}"),
+            }
         }
         None => text.parse().expect(FIXED),
     }
@@ -83,6 +87,12 @@ mod tests {
         }
         assert_eq!(vector("2^-3"), DVec3::splat(0.125));
         assert_eq!(vector("0 1 -2"), DVec3::new(0.0, 1.0, -2.0));
+    }
+
+    #[test]
+    #[should_panic(expected = "12^3")]
+    fn no_other_power_is_taken() {
+        number("12^3");
     }
 
     #[test]

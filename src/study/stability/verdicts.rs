@@ -56,7 +56,7 @@ fn on_cases(rows: &[&CaseRecord]) -> Verdict {
         held: cells == 0,
         message: format!(
             "{} hard cases in {} cells (strategy by kernel), {demanded} of which must be right: {told}, {} of them off by no more than \
-             allowed (f64: a tie within 8 ulp; padded f32: hits too many); of the others, {} are off, {} refused with a message and {} \
+             allowed (f64: t of a hit by less than 8 ulp; padded f32: hits too many); of the others, {} are off, {} refused with a message and {} \
              failed",
             names.len(),
             rows.len(),
