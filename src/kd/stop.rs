@@ -73,8 +73,8 @@ pub const MAX_DEPTH: u32 = 128;
 pub const MAX_FULL_DEPTH: u32 = 22;
 
 impl StopRule {
-    /// The depth at which every node becomes a leaf.
-    pub(super) fn depth_bound(self, objects: usize) -> usize {
+    /// The depth at which every node becomes a leaf, in a tree over so many objects.
+    pub fn depth_bound(self, objects: usize) -> usize {
         match self {
             Self::Depth(depth) | Self::Octree { depth, .. } => depth as usize,
             Self::Objects { depth, .. } | Self::CostK { depth, .. } | Self::CostGain { depth } => {

@@ -5,12 +5,11 @@ use glam::DVec3;
 use sahlab::cost::CostModel;
 use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere, Triangle};
 use sahlab::kd::audit::{audit, audit_clipped};
-use sahlab::kd::stop::{automatic_depth, default_depth};
 use sahlab::kd::stream::Streams;
 use sahlab::kd::traverse::{all_watched, traverse_line};
 use sahlab::kd::{
-    Counts, Hit, NoProbe, Probe, Rules, Stack, StopRule, Strategy, Tracing, Tree, build_objects,
-    nearest, occluded, predict, traverse,
+    Counts, Hit, NoProbe, Probe, Rules, Stack, Strategy, Tracing, Tree, build_objects, nearest,
+    occluded, predict, traverse,
 };
 use sahlab::rays::file::LENGTHS;
 use sahlab::scene::Scene;
@@ -179,7 +178,7 @@ pub fn tree(bytes: &[u8]) {
         false => audit(&tree, bounds),
     };
     assert_eq!(audited, Ok(()), "{rules:?}");
-    assert!(tree.depth <= most_levels(rules.stop, bounds.len()));
+    assert!(tree.depth <= rules.stop.depth_bound(bounds.len()));
     let prediction = predict(&tree);
     let above_one = 1.0 + 1e-12;
     assert!(
@@ -190,20 +189,6 @@ pub fn tree(bytes: &[u8]) {
         if let Some(ray) = choices.ray(&scene) {
             counts(&tree, &ray);
             hits(&tree, &scene, &ray, rules.clipped);
-        }
-    }
-}
-
-fn most_levels(stop: StopRule, objects: usize) -> usize {
-    match stop {
-        StopRule::Depth(depth) | StopRule::Octree { depth, .. } => depth as usize,
-        StopRule::Automatic { depth } => {
-            depth.map_or_else(|| automatic_depth(objects), |d| d as usize)
-        }
-        StopRule::Objects { depth, .. }
-        | StopRule::CostK { depth, .. }
-        | StopRule::CostGain { depth } => {
-            depth.map_or_else(|| default_depth(objects), |d| d as usize)
         }
     }
 }

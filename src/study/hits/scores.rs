@@ -29,6 +29,30 @@ pub const FREE: usize = 2;
 /// Least p of a node that takes part: sums of weights 1/p over 2^32 nodes stay within f64. No line will ever hit less.
 const LEAST_P: f64 = 1e-290;
 
+/// Weight of a node in the slope, from the theoretical p: weights from the data would bias it.
+fn weight(p: f64) -> f64 {
+    1.0 / (p * (1.0 - p))
+}
+
+/// Whether a node takes part: its p is below 1, and not so small that its weight overflows.
+fn takes_part(p: f64) -> bool {
+    (LEAST_P..1.0).contains(&p)
+}
+
+/// What one visit of each node adds to the weighted slope's score, from the predicted p: w p / sum of w p^2.
+pub fn weighted_slope(p: &[f64]) -> Vec<f64> {
+    let own = p.iter().filter(|p| takes_part(**p));
+    let total: f64 = own.map(|&p| weight(p) * p * p).sum();
+    let score = |&p: &f64| {
+        if takes_part(p) {
+            weight(p) * p / total
+        } else {
+            0.0
+        }
+    };
+    p.iter().map(score).collect()
+}
+
 /// What one visit of each node adds, from the predicted p alone.
 pub struct Scoring {
     scores: Vec<[f64; SCORES]>,
@@ -46,7 +70,7 @@ impl Scoring {
     /// The scoring of a tree.
     pub fn new(tree: &Tree, prediction: &Prediction) -> Self {
         let p = &prediction.p;
-        let included: Vec<bool> = p.iter().map(|p| (LEAST_P..1.0).contains(p)).collect();
+        let included: Vec<bool> = p.iter().map(|&p| takes_part(p)).collect();
         let sum = |term: &dyn Fn(f64) -> f64| -> f64 {
             p.iter()
                 .zip(&included)
@@ -54,9 +78,6 @@ impl Scoring {
                 .map(|(&p, _)| term(p))
                 .sum()
         };
-        // Weights 1/(p(1-p)) from the theoretical p; weights from the data would bias the slope.
-        let weight = |p: f64| 1.0 / (p * (1.0 - p));
-        let weighted = sum(&|p| weight(p) * p * p);
         let ordinary = sum(&|p| p * p);
         let total = sum(&weight);
         let centre = sum(&|p| weight(p) * p) / total;
@@ -71,7 +92,7 @@ impl Scoring {
             .iter()
             .zip(&included)
             .any(|(&p, &i)| i && p > smallest * (1.0 + 1e-9));
-        let score = |p: f64| {
+        let score = |p: f64, weighted: f64| {
             let slope = if has_free_line {
                 weight(p) * (p - centre) / spread
             } else {
@@ -82,12 +103,16 @@ impl Scoring {
             } else {
                 0.0
             };
-            [weight(p) * p / weighted, p / ordinary, intercept, slope]
+            [weighted, p / ordinary, intercept, slope]
         };
-        let scores = p
-            .iter()
-            .zip(&included)
-            .map(|(&p, &i)| if i { score(p) } else { [0.0; SCORES] });
+        let scores = p.iter().zip(&included).zip(weighted_slope(p));
+        let scores = scores.map(|((&p, &included), weighted)| {
+            if included {
+                score(p, weighted)
+            } else {
+                [0.0; SCORES]
+            }
+        });
         Self {
             scores: scores.collect(),
             contrasts: contrasts(tree, p, &included),

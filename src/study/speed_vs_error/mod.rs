@@ -6,6 +6,7 @@ pub mod coverage;
 mod errors;
 mod exponents;
 mod method;
+mod part;
 pub mod planes;
 pub mod precision;
 mod replicates;
@@ -29,6 +30,7 @@ use super::timing::keep_rows;
 use super::{Plan, RunError, SCHEMA, Watcher};
 
 pub use asked::SpeedVsError;
+use part::Part;
 
 /// What was found in one scene by one part.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
@@ -52,18 +54,8 @@ pub struct Found {
     pub timings: Vec<PassTiming>,
 }
 
-/// The parts of the experiment, in their order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Part {
-    Samplers,
-    Precision,
-    Planes,
-    Coverage,
-}
-
 /// One part of one scene.
 pub struct Piece<'a> {
-    part: Part,
     /// The scene.
     pub scene: &'a Scene,
     /// The tree, but for plane searches.
@@ -74,77 +66,54 @@ pub struct Piece<'a> {
     pub id: String,
 }
 
+impl Piece<'_> {
+    /// A row of seconds with the names of its tree.
+    pub fn named(&self, row: PassTiming) -> PassTiming {
+        PassTiming {
+            cell: self.id.clone(),
+            scene: self.scene.name.clone(),
+            strategy: self.rules.strategy.name(),
+            stop: self.rules.stop.to_string(),
+            ..row
+        }
+    }
+}
+
 /// The pieces of a plan: part by part, scene by scene.
-fn pieces<'a>(plan: &Plan, asked: &SpeedVsError, scenes: &'a [Scene]) -> Vec<Piece<'a>> {
+fn pieces<'a>(
+    plan: &Plan,
+    asked: &'a SpeedVsError,
+    scenes: &'a [Scene],
+) -> Vec<(Part<'a>, Piece<'a>)> {
     let rules = Rules {
         strategy: asked.strategy,
         stop: asked.stop,
         cost: plan.cost,
         clipped: false,
     };
-    let mut pieces = Vec::new();
-    let mut add = |part: Part, own: &[String], section: String| {
-        for scene in scenes.iter().filter(|scene| own.contains(&scene.name)) {
-            let text = format!(
-                "{SCHEMA} {part:?} of {} {} {rules:?} {section} seed {}",
-                scene.name,
-                whole(scene),
-                plan.seed
-            );
-            pieces.push(Piece {
-                part,
-                scene,
-                rules,
-                seed: plan.seed,
-                id: digest(text.as_bytes()),
-            });
-        }
+    let piece = |part: Part<'a>, scene: &'a Scene| {
+        let text = format!(
+            "{SCHEMA} {} of {} {} {rules:?} {} seed {}",
+            part.name(),
+            scene.name,
+            whole(scene),
+            part.section(),
+            plan.seed
+        );
+        let piece = Piece {
+            scene,
+            rules,
+            seed: plan.seed,
+            id: digest(text.as_bytes()),
+        };
+        (part, piece)
     };
-    if let Some(part) = &asked.samplers {
-        add(Part::Samplers, &part.scenes, format!("{part:?}"));
-    }
-    if let Some(part) = &asked.precision {
-        add(Part::Precision, &part.scenes, format!("{part:?}"));
-    }
-    if let Some(part) = &asked.planes {
-        add(Part::Planes, &part.scenes, format!("{part:?}"));
-    }
-    if let Some(part) = &asked.coverage {
-        let own = std::slice::from_ref(&part.scene);
-        add(Part::Coverage, own, format!("{part:?}"));
-    }
-    pieces
-}
-
-fn measure(
-    asked: &SpeedVsError,
-    piece: &Piece<'_>,
-    watcher: &impl Watcher,
-) -> Result<Found, String> {
-    let section = "a piece is of a part that is asked for";
-    match piece.part {
-        Part::Samplers => {
-            samplers::measure(asked.samplers.as_ref().expect(section), piece, watcher)
-        }
-        Part::Precision => {
-            precision::measure(asked.precision.as_ref().expect(section), piece, watcher)
-        }
-        Part::Planes => planes::measure(asked.planes.as_ref().expect(section), piece, watcher),
-        Part::Coverage => {
-            coverage::measure(asked.coverage.as_ref().expect(section), piece, watcher)
-        }
-    }
-}
-
-/// Units of progress of a piece; its `measure` tells the watcher as many done.
-fn units(asked: &SpeedVsError, piece: &Piece<'_>) -> u64 {
-    let section = "a piece is of a part that is asked for";
-    match piece.part {
-        Part::Samplers => samplers::units(asked.samplers.as_ref().expect(section)),
-        Part::Precision => precision::units(asked.precision.as_ref().expect(section)),
-        Part::Planes => planes::units(asked.planes.as_ref().expect(section)),
-        Part::Coverage => coverage::units(asked.coverage.as_ref().expect(section)),
-    }
+    let of_part = |part: Part<'a>| {
+        let own = scenes.iter();
+        let own = own.filter(move |scene| part.scenes().contains(&scene.name));
+        own.map(move |scene| piece(part, scene))
+    };
+    Part::all(asked).flat_map(of_part).collect()
 }
 
 /// Measure what is not finished and write the files of the run.
@@ -159,25 +128,25 @@ pub(super) fn run(
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     let found = pieces
         .iter()
-        .map(|piece| finished(store, piece, &times))
+        .map(|(_, piece)| finished(store, piece, &times))
         .collect();
-    let announce = |left: &[&Piece<'_>]| {
+    let announce = |left: &[&(Part<'_>, Piece<'_>)]| {
         watcher.announce(&format!("measuring {} parts of scenes", left.len()));
     };
-    let one = |piece: &Piece<'_>| {
-        let place = format!("{:?} of {}", piece.part, piece.scene.name).to_lowercase();
+    let one = |(part, piece): &(Part<'_>, Piece<'_>)| {
+        let place = format!("{} of {}", part.name(), piece.scene.name).to_lowercase();
         watcher.begin(&place);
-        let mut found =
-            measure(asked, piece, watcher).map_err(|fault| RunError::Bug { place, fault })?;
+        let found = part.measure(piece, watcher);
+        let mut found = found.map_err(|fault| RunError::Bug { place, fault })?;
         found.timed = found.timings.iter().map(|row| row.cell.clone()).collect();
         found.timed.dedup();
         keep_rows(store, std::mem::take(&mut found.timings))?;
         store.save(&piece.id, &found)?;
         Ok(found)
     };
-    let extent = |piece: &Piece<'_>| Extent {
+    let extent = |(part, _): &(Part<'_>, Piece<'_>)| Extent {
         things: 1,
-        units: units(asked, piece),
+        units: part.units(),
     };
     let results = piece_by_piece(&pieces, found, extent, "parts", watcher, announce, one)?;
     write(plan, asked, &results, store)?;
@@ -230,8 +199,8 @@ pub(super) fn describe(plan: &Plan, asked: &SpeedVsError, scenes: &[Scene]) -> S
         "strategy {}, stop {}, seed {}\n",
         asked.strategy, asked.stop, plan.seed
     );
-    for piece in pieces(plan, asked, scenes) {
-        let part = format!("{:?}", piece.part).to_lowercase();
+    for (part, piece) in pieces(plan, asked, scenes) {
+        let part = part.name().to_lowercase();
         text += &format!(
             "{}  {part:10} {:24} {:>9} objects\n",
             piece.id,

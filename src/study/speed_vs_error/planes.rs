@@ -44,10 +44,8 @@ pub fn measure(asked: &Planes, piece: &Piece<'_>, watcher: &impl Watcher) -> Res
     watcher.done(rules.len() as u64);
     let named = |(row, seconds): (&PlaneRecord, PassTiming)| PassTiming {
         cell: row.cell.clone(),
-        scene: row.scene.clone(),
         strategy: row.strategy.clone(),
-        stop: piece.rules.stop.to_string(),
-        ..seconds
+        ..piece.named(seconds)
     };
     Ok(Found {
         timings: planes.iter().zip(seconds).map(named).collect(),
@@ -136,7 +134,6 @@ mod tests {
     use super::*;
     use crate::cost::CostModel;
     use crate::scene::Scene;
-    use crate::study::speed_vs_error::Part;
 
     fn found(strategies: &[&str], clipped: &[bool], stop: &str) -> Found {
         let asked = Planes {
@@ -147,7 +144,6 @@ mod tests {
         };
         let scene = Scene::load("simple:soup:60").expect("a procedural scene");
         let piece = Piece {
-            part: Part::Planes,
             scene: &scene,
             rules: Rules {
                 strategy: Strategy::Sah,

@@ -8,14 +8,15 @@ mod verdicts;
 use glam::DVec3;
 
 use crate::geom::{Aabb, Line, Objects, Triangle};
-use crate::kd::narrow::{NarrowTree, fitness, narrow_triangles, resolution};
+use crate::kd::narrow::{NarrowTree, fitness, resolution};
 use crate::kd::{Counting, Mode, Planes, Tracing, Tree, build};
 use crate::rays::SurfaceLines;
 use crate::study::Watcher;
+use crate::study::hits::scores::weighted_slope;
 use crate::study::identity::line_seed;
 use crate::study::incidence::{Against, Aim, Exact, Narrow, Subject};
 use crate::study::kernel::Kernel;
-use crate::study::records::{PassTiming, PrecisionRecord};
+use crate::study::records::PrecisionRecord;
 
 use super::asked::Precision;
 use super::{Found, Piece};
@@ -39,26 +40,14 @@ pub fn units(asked: &Precision) -> u64 {
     2 * asked.lines * asked.kernels.len() as u64 * asked.offsets.len() as u64
 }
 
-/// Measure a scene.
-///
-/// # Errors
-/// If it has other objects than triangles, the only ones with a test in f32.
-pub fn measure(
-    asked: &Precision,
-    piece: &Piece<'_>,
-    watcher: &impl Watcher,
-) -> Result<Found, String> {
-    narrow_triangles(&Objects {
-        triangles: Vec::new(),
-        ..piece.scene.objects.clone()
-    })
-    .map_err(|refusal| refusal.to_string())?;
+/// Measure a scene, of triangles alone, as the plan has it.
+pub fn measure(asked: &Precision, piece: &Piece<'_>, watcher: &impl Watcher) -> Found {
     let mut found = Found::default();
     for &offset in &asked.offsets {
         let place = Place::new(asked, piece, offset);
         place.measure(watcher, &mut found);
     }
-    Ok(found)
+    found
 }
 
 /// A scene that was moved, and its tree.
@@ -123,13 +112,8 @@ impl<'a> Place<'a> {
             watcher.done(2 * self.asked.lines);
         }
         let rows = seconds(timed, self.asked.rounds, self.piece.seed);
-        found.timings.extend(rows.into_iter().map(|row| PassTiming {
-            cell: self.piece.id.clone(),
-            scene: self.piece.scene.name.clone(),
-            strategy: self.piece.rules.strategy.name(),
-            stop: self.piece.rules.stop.to_string(),
-            ..row
-        }));
+        let named = rows.into_iter().map(|row| self.piece.named(row));
+        found.timings.extend(named);
     }
 
     fn aim<'b, T: Planes>(&self, subject: &'b Subject<'b, T>) -> Aim<'b, T> {
@@ -158,21 +142,7 @@ impl<'a> Place<'a> {
             .iter()
             .map(|b| b.surface_area() / root)
             .collect();
-        let inside = |p: f64| 0.0 < p && p < 1.0;
-        // The weighted slope as a mean over lines: a visit adds w p / sum of w p^2 with w = 1/(p (1 - p)).
-        let total: f64 = p
-            .iter()
-            .filter(|p| inside(**p))
-            .map(|p| p / (1.0 - p))
-            .sum();
-        let add = |&p: &f64| {
-            if inside(p) {
-                1.0 / (1.0 - p) / total
-            } else {
-                0.0
-            }
-        };
-        let score: Vec<f64> = p.iter().map(add).collect();
+        let score = weighted_slope(&p);
         let refused = kernel != Kernel::F64 && fitness(&self.tree.world).is_err();
         let (lines, enough) = if refused {
             let few = &lines[..OF_REFUSED.min(lines.len())];

@@ -12,7 +12,7 @@ use crate::kd::traverse::traverse_line;
 use crate::kd::{Ask, Counts, Stack, Work};
 use crate::rays::{Conditional, PointSet};
 use crate::study::records::PassTiming;
-use crate::study::timing::{CHUNK, Minima, Timing, interleaved};
+use crate::study::timing::{CHUNK, Minima, interleaved};
 
 use super::Piece;
 use super::method::Way;
@@ -47,20 +47,9 @@ pub fn times(
     }
     let run = |job: &mut Job, half: usize| pass(subject, job, half);
     interleaved(&mut jobs, rounds, piece.seed, run, tick);
-    let timing = Timing {
-        rounds,
-        builds: rounds,
-        pass_s: f64::INFINITY,
-    };
     let row = |job: Job| {
         let what = format!("{} {} {}", job.way.method.name(), job.way.rays(), job.lines);
-        PassTiming {
-            cell: piece.id.clone(),
-            scene: piece.scene.name.clone(),
-            strategy: piece.rules.strategy.name(),
-            stop: piece.rules.stop.to_string(),
-            ..job.best.row(what, job.lines, timing)
-        }
+        piece.named(job.best.row(what, job.lines, rounds))
     };
     jobs.into_iter().map(row).collect()
 }

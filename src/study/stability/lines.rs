@@ -12,101 +12,40 @@ use crate::study::kernel::Kernel;
 use super::case::{Case, Check, Finding, Group};
 use super::first_hit::once;
 use super::judge::refused;
+use super::table::{meet, number, rows, vector};
 
 /// A part of a line against the unit cube; all numbers are dyadic, so that every kernel must be right.
 struct SpanCase {
     name: &'static str,
     stresses: &'static str,
-    origin: [f64; 3],
-    direction: [f64; 3],
-    span: [f64; 2],
+    line: Line,
+    span: Span,
     hit: bool,
 }
 
 const UNIT: Aabb = Aabb::new(DVec3::ZERO, DVec3::ONE);
-const INF: f64 = f64::INFINITY;
-const X: [f64; 3] = [1.0, 0.0, 0.0];
 
-const CASES: [SpanCase; 9] = [
-    SpanCase {
-        name: "line-origin-inside",
-        stresses: "a line's origin is no beginning",
-        origin: [0.5, 0.5, 0.5],
-        direction: [1.0, 2.0, 3.0],
-        span: [-INF, INF],
-        hit: true,
-    },
-    SpanCase {
-        name: "ray-origin-inside",
-        stresses: "a ray that begins inside",
-        origin: [0.5, 0.5, 0.5],
-        direction: [1.0, 2.0, 3.0],
-        span: [0.0, INF],
-        hit: true,
-    },
-    SpanCase {
-        name: "line-box-behind",
-        stresses: "a line goes on behind its origin",
-        origin: [2.0, 0.5, 0.5],
-        direction: X,
-        span: [-INF, INF],
-        hit: true,
-    },
-    SpanCase {
-        name: "ray-box-behind",
-        stresses: "a ray does not",
-        origin: [2.0, 0.5, 0.5],
-        direction: X,
-        span: [0.0, INF],
-        hit: false,
-    },
-    SpanCase {
-        name: "ray-ends-before",
-        stresses: "a ray that ends before the box",
-        origin: [-2.0, 0.5, 0.5],
-        direction: X,
-        span: [0.0, 1.5],
-        hit: false,
-    },
-    SpanCase {
-        name: "ray-ends-on-face",
-        stresses: "a ray that ends on a face: both ends belong to it",
-        origin: [-2.0, 0.5, 0.5],
-        direction: X,
-        span: [0.0, 2.0],
-        hit: true,
-    },
-    SpanCase {
-        name: "ray-begins-on-face",
-        stresses: "a ray that begins on a face and leaves",
-        origin: [1.0, 0.5, 0.5],
-        direction: X,
-        span: [0.0, INF],
-        hit: true,
-    },
-    SpanCase {
-        name: "ray-begins-beyond-face",
-        stresses: "a ray that begins beyond a face and leaves",
-        origin: [1.0, 0.5, 0.5],
-        direction: X,
-        span: [0.5, INF],
-        hit: false,
-    },
-    SpanCase {
-        name: "ray-of-one-point",
-        stresses: "a span of one t, in a corner",
-        origin: [-1.0, -1.0, -1.0],
-        direction: [1.0, 1.0, 1.0],
-        span: [1.0, 1.0],
-        hit: true,
-    },
-];
+/// The cases of `tables/spans.txt`.
+fn table() -> impl Iterator<Item = SpanCase> {
+    let rows = rows(include_str!("tables/spans.txt"));
+    rows.map(
+        |[name, hit, origin, direction, t0, t1, stresses]| SpanCase {
+            name,
+            stresses,
+            line: Line::new(vector(origin), vector(direction)),
+            span: Span {
+                t0: number(t0),
+                t1: number(t1),
+            },
+            hit: meet(hit),
+        },
+    )
+}
 
 impl SpanCase {
     fn check(&self, kernel: Kernel) -> Finding {
         let word = |hit: bool| if hit { "hit" } else { "miss" };
-        let [t0, t1] = self.span;
-        let line = Line::new(self.origin.into(), self.direction.into());
+        let (line, Span { t0, t1 }) = (self.line, self.span);
         let said = match kernel {
             Kernel::F64 => UNIT.clip(&line, Span { t0, t1 }).is_some(),
             Kernel::F32 | Kernel::F32Padded => {
@@ -135,13 +74,13 @@ impl SpanCase {
 
 /// The cases of this group.
 pub fn cases() -> Vec<Case> {
-    let span = |case: &'static SpanCase| Case {
+    let span = |case: SpanCase| Case {
         name: case.name,
         group: Group::Lines,
         stresses: case.stresses,
-        check: Check::Kernels(Arc::new(|kernel| Some(case.check(kernel)))),
+        check: Check::Kernels(Arc::new(move |kernel| Some(case.check(kernel)))),
     };
-    let mut cases: Vec<Case> = CASES.iter().map(span).collect();
+    let mut cases: Vec<Case> = table().map(span).collect();
     let drawn = |name, stresses, check| once(Group::Lines, name, stresses, check);
     cases.extend([
         drawn(

@@ -8,7 +8,8 @@
 mod transform;
 
 use crate::geom::{Line, Objects, Ray, Span};
-use crate::kd::{Ask, Counting, Counts, Hit, Stack, Tree, Work, traverse};
+use crate::kd::traverse::traverse_line;
+use crate::kd::{Ask, Counts, Hit, Stack, Tree, Work};
 use crate::rays::SurfaceLines;
 use crate::scene::Scene;
 use crate::study::records::MetamorphicRecord;
@@ -54,14 +55,7 @@ pub fn check(
         world: scene.world,
         seed,
     };
-    let drawn: Vec<Line> = drawn.range(0..lines).collect();
-    let before = Untouched {
-        scene,
-        tree,
-        hits: count(tree, drawn.iter().copied()),
-        found: searches(tree, &scene.objects, drawn.iter().copied()),
-        lines: drawn,
-    };
+    let before = Untouched::new(scene, tree, drawn.range(0..lines).collect());
     let rows = TRANSFORMS
         .iter()
         .flat_map(|transform| before.against(transform, strategy));
@@ -79,7 +73,17 @@ struct Untouched<'a> {
     found: Vec<Search>,
 }
 
-impl Untouched<'_> {
+impl<'a> Untouched<'a> {
+    fn new(scene: &'a Scene, tree: &'a Tree, lines: Vec<Line>) -> Self {
+        Self {
+            scene,
+            tree,
+            hits: count(tree, lines.iter().copied()),
+            found: searches(tree, &scene.objects, lines.iter().copied()),
+            lines,
+        }
+    }
+
     /// What differs after a transform: of lines, and of their nearest hits.
     fn against(&self, transform: &Transform, strategy: &str) -> Vec<MetamorphicRecord> {
         let (moved, number) = transform.tree(self.tree);
@@ -118,9 +122,7 @@ impl Untouched<'_> {
 fn count(tree: &Tree, lines: impl Iterator<Item = Line>) -> Vec<u64> {
     let (mut counts, mut stack) = (Counts::new(tree), Stack::default());
     for line in lines {
-        traverse::<Counting, _, _>(tree, &line, Span::FULL, &mut stack, &mut counts, |_, _| {
-            f64::INFINITY
-        });
+        traverse_line(tree, &line, Span::FULL, &mut stack, &mut counts);
     }
     counts.hits
 }
@@ -188,14 +190,7 @@ mod tests {
             world: scene.world,
             seed: 1,
         };
-        let lines: Vec<Line> = lines.range(0..256).collect();
-        let before = Untouched {
-            scene: &scene,
-            tree: &tree,
-            hits: count(&tree, lines.iter().copied()),
-            found: searches(&tree, &scene.objects, lines.iter().copied()),
-            lines,
-        };
+        let before = Untouched::new(&scene, &tree, lines.range(0..256).collect());
         let rows = before.against(&scale(-1066), "sah");
         assert!(rows[0].differing_nodes > 0, "{rows:?}");
         assert!(rows[1].differing_hits > 0, "{rows:?}");

@@ -33,8 +33,8 @@ pub fn vector(cell: &str) -> DVec3 {
     }
 }
 
-/// A sum of decimals and powers of two, rounded after each: `-0`, `1e6+1`, `1-2^-24`.
-fn number(text: &str) -> f64 {
+/// A sum of decimals and powers of two, rounded after each: `-0`, `1e6+1`, `1-2^-24`, `inf`.
+pub fn number(text: &str) -> f64 {
     let within = |i: usize| i > 0 && !text[..i].ends_with(['^', 'e']);
     let signs = text.match_indices(['+', '-']).map(|(i, _)| i);
     let mut starts: Vec<usize> = signs.filter(|&i| within(i)).collect();

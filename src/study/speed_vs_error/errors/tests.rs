@@ -6,7 +6,6 @@ use crate::kd::{Ask, Rules, Strategy};
 use crate::rays::Sampler;
 use crate::scene::Scene;
 use crate::study::hits::cell::build_tree;
-use crate::study::speed_vs_error::Part;
 use crate::study::speed_vs_error::exponents::{enough, exponent};
 use crate::study::speed_vs_error::method::Method;
 use crate::study::speed_vs_error::replicates::Subject;
@@ -22,7 +21,6 @@ fn rules() -> Rules {
 
 fn piece(scene: &Scene) -> Piece<'_> {
     Piece {
-        part: Part::Samplers,
         scene,
         rules: rules(),
         seed: 1,

@@ -8,7 +8,7 @@ use crate::geom::{Line, Ray, Real, Span};
 use crate::kd::{Mode, NoProbe, Planes, Stack, Work, traverse};
 use crate::study::incidence::Subject;
 use crate::study::records::PassTiming;
-use crate::study::timing::{CHUNK, Minima, Timing, interleaved};
+use crate::study::timing::{CHUNK, Minima, interleaved};
 
 /// Most lines that are timed.
 pub const TIMED: usize = 1 << 14;
@@ -82,12 +82,7 @@ pub fn passes<'a, M: Mode, T: Planes>(
 /// Time all passes in rounds of a fresh random order. Gives rows without the names of their cell.
 pub fn seconds(mut passes: Vec<Pass<'_>>, rounds: u32, seed: u64) -> Vec<PassTiming> {
     interleaved(&mut passes, rounds, seed, Pass::once, || ());
-    let timing = Timing {
-        rounds,
-        builds: rounds,
-        pass_s: f64::INFINITY,
-    };
-    let row = |pass: Pass<'_>| pass.best.row(pass.what, pass.units, timing);
+    let row = |pass: Pass<'_>| pass.best.row(pass.what, pass.units, rounds);
     passes.into_iter().map(row).collect()
 }
 

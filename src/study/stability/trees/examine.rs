@@ -5,10 +5,9 @@ use glam::Vec3;
 use crate::geom::{Object, Ray, Real, Span, Triangle, Vector};
 use crate::kd::audit::{audit, audit_clipped};
 use crate::kd::narrow::{Refusal, narrow_line};
-use crate::kd::stop::{automatic_depth, default_depth};
 use crate::kd::{
-    Counting, Hit, Mode, NarrowTree, NoProbe, Planes, Rules, Stack, StopRule, Tracing, Tree,
-    build_objects, nearest, traverse,
+    Counting, Hit, Mode, NarrowTree, NoProbe, Planes, Rules, Stack, Tracing, Tree, build_objects,
+    nearest, traverse,
 };
 use crate::scene::Scene;
 use crate::study::incidence::{Exact, Narrow, Subject, Tally, Visits, nodes};
@@ -29,12 +28,11 @@ const MOST_A_NODE: usize = 16;
 
 /// Build, and follow the hard rays.
 pub fn examine(case: &TreeCase, rules: &Rules, kernel: Kernel) -> Finding {
-    let most = depth_bound(rules.stop, 0);
     let scene = match Scene::load(case.scene) {
         Ok(scene) => scene,
         Err(error) => return Finding::failed("a scene", error),
     };
-    let most = most.unwrap_or_else(|| depth_bound(rules.stop, scene.bounds.len()).unwrap_or(0));
+    let most = rules.stop.depth_bound(scene.bounds.len());
     let expected = format!("depth at most {most}, every visit and nearest hit right");
     let tree = build_objects(&scene.objects, &scene.bounds, scene.world, rules);
     if let Err(fault) = sound(case, &scene, &tree, most) {
@@ -126,23 +124,6 @@ fn judge(kernel: Kernel, tally: &Tally, differing: u64) -> Outcome {
         (0, 0) => Outcome::Pass,
         (0, off) => Outcome::Off(off as f64),
         _ => Outcome::Failed,
-    }
-}
-
-/// The deepest leaf that a stop rule allows; `None` if it depends on the number of objects and that is 0.
-fn depth_bound(stop: StopRule, objects: usize) -> Option<usize> {
-    let named = match stop {
-        StopRule::Depth(depth) | StopRule::Octree { depth, .. } => Some(depth),
-        StopRule::Objects { depth, .. }
-        | StopRule::CostK { depth, .. }
-        | StopRule::CostGain { depth }
-        | StopRule::Automatic { depth } => depth,
-    };
-    match (named, stop) {
-        (Some(depth), _) => Some(depth as usize),
-        (None, _) if objects == 0 => None,
-        (None, StopRule::Automatic { .. }) => Some(automatic_depth(objects)),
-        (None, _) => Some(default_depth(objects)),
     }
 }
 
