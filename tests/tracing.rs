@@ -5,8 +5,8 @@ mod common;
 
 use common::{Leaves, rules, target};
 use glam::DVec3;
-use sahlab::geom::{Cone, Line, Objects, Polygon, Ray, Span, Sphere};
-use sahlab::kd::traverse::occluded_watched;
+use sahlab::geom::{Cone, Line, Objects, Polygon, Ray, Span, Sphere, Targets};
+use sahlab::kd::hits::any_watched;
 use sahlab::kd::{
     Hit, NodeKind, Rules, Stack, Strategy, Tracing, Tree, Work, build, build_objects, nearest,
     occluded, traverse,
@@ -188,7 +188,7 @@ fn any_hits_are_brute_forces_and_end_at_the_first_object() {
                         }
                     }
                     let mut work = Work::default();
-                    occluded_watched(&tree, &scene.objects, &ray, &mut stack, &mut work);
+                    any_watched(&tree, &scene.objects, &ray, &mut stack, &mut work);
                     assert_eq!((work.leaves, work.tests), (leaves, tests));
                 }
             }

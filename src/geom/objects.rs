@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::{Aabb, Cone, Polygon, Ray, Sphere, Triangle};
+use super::{Aabb, Cone, Polygon, Ray, Sphere, Triangle, Vector};
 
 /// Objects in one numbering: triangles, spheres, cones, polygons.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -53,17 +53,6 @@ impl Objects {
             .collect()
     }
 
-    /// Parameter of the ray's first hit with object `number`, or `None`.
-    #[inline]
-    pub fn intersect(&self, number: u32, ray: &Ray) -> Option<f64> {
-        match self.get(number) {
-            Object::Triangle(triangle) => triangle.intersect(ray),
-            Object::Sphere(sphere) => sphere.intersect(ray),
-            Object::Cone(cone) => cone.intersect(ray),
-            Object::Polygon(polygon) => polygon.intersect(ray),
-        }
-    }
-
     /// The outward normal of object `number` at a point of its surface, not of unit length.
     pub fn normal(&self, number: u32, point: DVec3) -> DVec3 {
         match self.get(number) {
@@ -72,6 +61,42 @@ impl Objects {
             Object::Cone(cone) => cone.normal(point),
             Object::Polygon(polygon) => polygon.normal(),
         }
+    }
+}
+
+/// Objects that rays are tested against, by number.
+pub trait Targets {
+    /// Points of their numbers.
+    type Vector: Vector;
+
+    /// Parameter of the ray's first hit with object `number`, or `None`.
+    fn intersect(
+        &self,
+        number: u32,
+        ray: &Ray<Self::Vector>,
+    ) -> Option<<Self::Vector as Vector>::Real>;
+}
+
+impl Targets for Objects {
+    type Vector = DVec3;
+
+    #[inline]
+    fn intersect(&self, number: u32, ray: &Ray) -> Option<f64> {
+        match self.get(number) {
+            Object::Triangle(triangle) => triangle.intersect(ray),
+            Object::Sphere(sphere) => sphere.intersect(ray),
+            Object::Cone(cone) => cone.intersect(ray),
+            Object::Polygon(polygon) => polygon.intersect(ray),
+        }
+    }
+}
+
+impl<V: Vector> Targets for [Triangle<V>] {
+    type Vector = V;
+
+    #[inline]
+    fn intersect(&self, number: u32, ray: &Ray<V>) -> Option<V::Real> {
+        self[number as usize].intersect(ray)
     }
 }
 

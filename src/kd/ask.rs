@@ -3,10 +3,10 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crate::geom::{Objects, Ray};
+use crate::geom::{Ray, Targets, Vector};
 
-use super::traverse::{all_watched, any_watched, nearest_watched};
-use super::{Hit, Probe, Stack, Tree};
+use super::hits::{all_watched, any_watched, nearest_watched};
+use super::{Hit, Probe, Stack, Walk};
 
 /// What a ray asks, and so how early its traversal ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -34,32 +34,32 @@ impl Ask {
 
     /// Trace a ray; says whether it hits anything within its span.
     #[inline]
-    pub fn hits(
+    pub fn hits<W: Walk>(
         self,
-        tree: &Tree,
-        objects: &Objects,
-        ray: &Ray,
-        stack: &mut Stack,
+        walk: &W,
+        objects: &(impl Targets<Vector = W::Vector> + ?Sized),
+        ray: &Ray<W::Vector>,
+        stack: &mut Stack<<W::Vector as Vector>::Real>,
         probe: impl Probe,
     ) -> bool {
-        self.trace(tree, objects, ray, stack, probe).is_some()
+        self.trace(walk, objects, ray, stack, probe).is_some()
     }
 
     /// Trace a ray; gives its nearest hit within its span, or of a ray that asks for any hit the one that ended it. Of a ray
     /// that nothing stops that is the nearest hit too: what is asked sets the work, not the answer.
     #[inline]
-    pub fn trace(
+    pub fn trace<W: Walk>(
         self,
-        tree: &Tree,
-        objects: &Objects,
-        ray: &Ray,
-        stack: &mut Stack,
+        walk: &W,
+        objects: &(impl Targets<Vector = W::Vector> + ?Sized),
+        ray: &Ray<W::Vector>,
+        stack: &mut Stack<<W::Vector as Vector>::Real>,
         probe: impl Probe,
-    ) -> Option<Hit> {
+    ) -> Option<Hit<<W::Vector as Vector>::Real>> {
         match self {
-            Self::All => all_watched(tree, objects, ray, stack, probe),
-            Self::Nearest => nearest_watched(tree, objects, ray, stack, probe),
-            Self::Any => any_watched(tree, objects, ray, stack, probe),
+            Self::All => all_watched(walk, objects, ray, stack, probe),
+            Self::Nearest => nearest_watched(walk, objects, ray, stack, probe),
+            Self::Any => any_watched(walk, objects, ray, stack, probe),
         }
     }
 }

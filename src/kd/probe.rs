@@ -30,6 +30,12 @@ pub trait Probe {
     /// The traversal ended within the last leaf, as an any-hit does: this many of its objects were not tested after all.
     #[inline(always)]
     fn untested(&mut self, _objects: u32) {}
+    /// The walk goes on from the leaf just left along a link, or, if it has none, again from the root.
+    #[inline(always)]
+    fn link(&mut self) {}
+    /// The exit of the leaf just left is not certain, as planes tie: the rest is walked with a stack.
+    #[inline(always)]
+    fn fall_back(&mut self) {}
 }
 
 /// Watches nothing: for production and timing.
@@ -113,6 +119,18 @@ impl<A: Probe, B: Probe> Probe for (A, B) {
         self.0.untested(objects);
         self.1.untested(objects);
     }
+
+    #[inline(always)]
+    fn link(&mut self) {
+        self.0.link();
+        self.1.link();
+    }
+
+    #[inline(always)]
+    fn fall_back(&mut self) {
+        self.0.fall_back();
+        self.1.fall_back();
+    }
 }
 
 impl<P: Probe> Probe for &mut P {
@@ -139,5 +157,15 @@ impl<P: Probe> Probe for &mut P {
     #[inline(always)]
     fn untested(&mut self, objects: u32) {
         (**self).untested(objects);
+    }
+
+    #[inline(always)]
+    fn link(&mut self) {
+        (**self).link();
+    }
+
+    #[inline(always)]
+    fn fall_back(&mut self) {
+        (**self).fall_back();
     }
 }

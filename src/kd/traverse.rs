@@ -1,4 +1,5 @@
-//! One traversal, generic over a [`Probe`], a padding [`Mode`] and the numbers of a tree ([`Planes`]).
+//! The stack traversal, generic over a [`Probe`], a padding [`Mode`] and the numbers of a tree ([`Planes`]); and what every
+//! traversal is ([`Walk`]).
 //!
 //! A line with span [t0, t1] in a node meets the plane at t: it visits the near child if t >= t0 and the far one if
 //! t <= t1, both ends included; a line parallel to the plane visits its side, or both sides if it lies in the plane.
@@ -7,9 +8,9 @@
 
 use glam::DVec3;
 
-use crate::geom::{Aabb, Line, Objects, Ray, Real, Span, Vector, slack};
+use crate::geom::{Aabb, Line, Real, Span, Vector, slack};
 
-use super::{NoProbe, NodeKind, Probe, Tree, Turn};
+use super::{NodeKind, Probe, Tree, Turn};
 
 /// How parameters of planes are treated.
 pub trait Mode {
@@ -66,14 +67,48 @@ impl Planes for Tree {
     }
 }
 
+/// A way through a tree: from leaf to leaf along a line, front to back.
+///
+/// A tree alone ([`Planes`]) is walked with a stack.
+pub trait Walk {
+    /// Points of the tree's numbers.
+    type Vector: Vector;
+
+    /// Visit the nodes that `line` meets within `span`, front to back.
+    ///
+    /// `leaf` gets a leaf's objects and the probe, and returns the t up to which further nodes matter: +inf for a line,
+    /// the best hit so far for a nearest hit, -inf to stop.
+    fn walk<M: Mode, P: Probe>(
+        &self,
+        line: &Line<Self::Vector>,
+        span: Span<<Self::Vector as Vector>::Real>,
+        stack: &mut Stack<<Self::Vector as Vector>::Real>,
+        probe: &mut P,
+        leaf: impl FnMut(&[u32], &mut P) -> <Self::Vector as Vector>::Real,
+    );
+}
+
+impl<T: Planes> Walk for T {
+    type Vector = T::Vector;
+
+    #[inline(always)]
+    fn walk<M: Mode, P: Probe>(
+        &self,
+        line: &Line<T::Vector>,
+        span: Span<T::Real>,
+        stack: &mut Stack<T::Real>,
+        probe: &mut P,
+        leaf: impl FnMut(&[u32], &mut P) -> T::Real,
+    ) {
+        traverse::<M, T, P>(self, line, span, stack, probe, leaf);
+    }
+}
+
 /// Nodes still to visit, kept between traversals to spare allocations.
 #[derive(Default)]
 pub struct Stack<T = f64>(Vec<(u32, Span<T>)>);
 
-/// Visit the nodes that `line` meets within `span`, front to back.
-///
-/// `leaf` gets a leaf's objects and the probe, and returns the t up to which further nodes matter: +inf for a line, the best hit so far
-/// for a nearest hit, -inf to stop.
+/// [`Walk::walk`] with a stack.
 #[inline]
 pub fn traverse<M: Mode, T: Planes, P: Probe>(
     tree: &T,
@@ -157,130 +192,4 @@ pub fn traverse_line(
     mut probe: impl Probe,
 ) {
     traverse::<Counting, _, _>(tree, line, span, stack, &mut probe, |_, _| f64::INFINITY);
-}
-
-/// A hit of a ray.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Hit {
-    /// Number of the object hit.
-    pub object: u32,
-    /// Parameter of the hit.
-    pub t: f64,
-}
-
-impl Hit {
-    /// The nearer of two hits; at equal t the lower object number.
-    #[inline]
-    pub fn nearer(best: Option<Self>, object: u32, t: f64) -> Option<Self> {
-        match best {
-            Some(b) if (b.t, b.object) <= (t, object) => best,
-            _ => Some(Self { object, t }),
-        }
-    }
-}
-
-/// The nearest hit of a ray; at equal t the lowest object number.
-pub fn nearest(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> Option<Hit> {
-    nearest_watched(tree, objects, ray, stack, NoProbe)
-}
-
-/// As [`nearest`], with a probe.
-#[inline]
-pub fn nearest_watched<P: Probe>(
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    probe: P,
-) -> Option<Hit> {
-    best_watched(tree, objects, ray, stack, probe, |best| best.t)
-}
-
-/// The nearest hit of a ray that nothing stops: every object of every leaf it meets is tested, one in several leaves each
-/// time. At equal t the lowest object number.
-#[inline]
-pub fn all_watched<P: Probe>(
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    probe: P,
-) -> Option<Hit> {
-    best_watched(tree, objects, ray, stack, probe, |_| f64::INFINITY)
-}
-
-/// The nearest hit, if the best one so far makes nodes matter up to `limit` only.
-#[inline(always)]
-fn best_watched<P: Probe>(
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    mut probe: P,
-    limit: impl Fn(Hit) -> f64,
-) -> Option<Hit> {
-    let mut best: Option<Hit> = None;
-    let leaf = |in_leaf: &[u32], probe: &mut P| {
-        for &object in in_leaf {
-            probe.test(object);
-            if let Some(t) = objects.intersect(object, ray) {
-                best = Hit::nearer(best, object, t);
-            }
-        }
-        best.map_or(f64::INFINITY, &limit)
-    };
-    traverse::<Tracing, _, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
-    best
-}
-
-/// Whether the ray hits any object within its span: what a shadow ray asks.
-pub fn occluded(tree: &Tree, objects: &Objects, ray: &Ray, stack: &mut Stack) -> bool {
-    occluded_watched(tree, objects, ray, stack, NoProbe)
-}
-
-/// As [`occluded`], with a probe.
-#[inline]
-pub fn occluded_watched<P: Probe>(
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    probe: P,
-) -> bool {
-    any_watched(tree, objects, ray, stack, probe).is_some()
-}
-
-/// The first hit that is found, which need not be the nearest: what ends a shadow ray. Leaves come front to back, their
-/// objects in the order of the references; the first object hit ends it, however far its hit.
-#[inline]
-pub fn any_watched<P: Probe>(
-    tree: &Tree,
-    objects: &Objects,
-    ray: &Ray,
-    stack: &mut Stack,
-    mut probe: P,
-) -> Option<Hit> {
-    let mut found = None;
-    let mut untested = 0;
-    let leaf = |in_leaf: &[u32], probe: &mut P| {
-        if found.is_none() {
-            for (i, &object) in in_leaf.iter().enumerate() {
-                probe.test(object);
-                if let Some(t) = objects.intersect(object, ray) {
-                    found = Some(Hit { object, t });
-                    untested = in_leaf.len() - 1 - i;
-                    break;
-                }
-            }
-        }
-        match found {
-            Some(_) => f64::NEG_INFINITY,
-            None => f64::INFINITY,
-        }
-    };
-    traverse::<Tracing, _, _>(tree, &ray.line, ray.span, stack, &mut probe, leaf);
-    if found.is_some() {
-        probe.untested(untested as u32);
-    }
-    found
 }

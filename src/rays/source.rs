@@ -228,7 +228,7 @@ fn cosine_around(normal: DVec3, rng: &mut impl Rng) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::geom::{Objects, Triangle};
+    use crate::geom::{Objects, Targets, Triangle};
 
     #[test]
     fn names_read_back() {

@@ -113,6 +113,7 @@ fn on_polygon(polygon: &Polygon, rng: &mut impl Rng) -> DVec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::geom::Targets;
     use crate::rays::{Purpose, generator};
 
     /// Of many points the share in each half of the box is that of the area there.

@@ -3,10 +3,11 @@
 
 use glam::DVec3;
 use sahlab::cost::CostModel;
-use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere, Triangle};
+use sahlab::geom::{Cone, Line, Object, Objects, Polygon, Ray, Span, Sphere, Targets, Triangle};
 use sahlab::kd::audit::{audit, audit_clipped};
+use sahlab::kd::hits::all_watched;
 use sahlab::kd::stream::Streams;
-use sahlab::kd::traverse::{all_watched, traverse_line};
+use sahlab::kd::traverse::traverse_line;
 use sahlab::kd::{
     Counts, Hit, NoProbe, Probe, Rules, Stack, Strategy, Tracing, Tree, build_objects, nearest,
     occluded, predict, traverse,

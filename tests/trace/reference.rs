@@ -1,7 +1,7 @@
 //! A traversal of its own, by recursion, and rays that are hard for any.
 
 use glam::DVec3;
-use sahlab::geom::{Cast, Line, Ray, Real, Span};
+use sahlab::geom::{Cast, Line, Ray, Real, Span, Targets};
 use sahlab::kd::{Ask, Hit, NodeKind, Tree, Work};
 use sahlab::rays::{SurfaceLines, Uniforms};
 use sahlab::scene::Scene;

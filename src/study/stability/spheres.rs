@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::geom::{Line, Object, Objects, Ray, Span, Sphere};
+use crate::geom::{Line, Object, Objects, Ray, Span, Sphere, Targets};
 
 use super::case::{Case, Finding, Group};
 use super::first_hit::{First, line, once, ray, whole};

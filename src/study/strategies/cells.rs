@@ -5,7 +5,7 @@ use rand::{RngExt, SeedableRng};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 
-use crate::geom::Ray;
+use crate::geom::{Ray, Targets};
 use crate::kd::{Hit, Rules, Stack, StopRule, Strategy, Tree, nearest, occluded, predict};
 use crate::scene::{Look, Scene};
 use crate::study::hits::cell::{CellPlan, compare, plant};

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::time::Instant;
 
 use crate::geom::{Line, Ray, Real, Span};
+use crate::kd::hits::nearest_in;
 use crate::kd::{Mode, NoProbe, Planes, Stack, Work, traverse};
 use crate::study::incidence::Subject;
 use crate::study::records::PassTiming;
@@ -53,16 +54,7 @@ pub fn passes<'a, M: Mode, T: Planes>(
     };
     let trace = move |chunk: Range<usize>| {
         for ray in &rays[chunk] {
-            let mut best = T::Real::INFINITY;
-            let leaf = |objects: &[u32], _: &mut NoProbe| {
-                for &object in objects {
-                    if let Some(t) = triangles[object as usize].intersect(ray) {
-                        best = best.min(t);
-                    }
-                }
-                best
-            };
-            traverse::<M, T, _>(tree, &ray.line, ray.span, &mut near, &mut NoProbe, leaf);
+            let best = nearest_in::<M, T>(tree, triangles, ray, &mut near, NoProbe);
             black_box(best);
         }
     };

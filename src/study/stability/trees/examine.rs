@@ -2,12 +2,13 @@
 
 use glam::Vec3;
 
-use crate::geom::{Object, Ray, Real, Span, Triangle, Vector};
+use crate::geom::{Object, Ray, Span, Targets, Vector};
 use crate::kd::audit::{audit, audit_clipped};
+use crate::kd::hits::nearest_in;
 use crate::kd::narrow::{Refusal, narrow_line};
 use crate::kd::{
     Counting, Hit, Mode, NarrowTree, NoProbe, Planes, Rules, Stack, Tracing, Tree, build_objects,
-    nearest, traverse,
+    nearest,
 };
 use crate::scene::Scene;
 use crate::study::incidence::{Exact, Narrow, Subject, Tally, Visits, nodes};
@@ -182,12 +183,7 @@ fn in_f64(scene: &Scene, tree: &Tree, rays: &[Ray]) -> Followed {
     let mut differing = 0;
     for ray in rays {
         let through = nearest(tree, objects, ray, &mut stack);
-        let mut best = None;
-        for number in 0..objects.len() as u32 {
-            if let Some(t) = objects.intersect(number, ray) {
-                best = Hit::nearer(best, number, t);
-            }
-        }
+        let best = brute_force(objects, objects.len(), ray);
         let sane = through.is_none_or(|hit| hit.t.is_finite() && has_area(objects.get(hit.object)));
         differing += u64::from(through != best || !sane);
     }
@@ -211,13 +207,10 @@ fn in_f32<M: Mode>(scene: &Scene, narrow: &Narrow, rays: &[Ray]) -> Result<Follo
         return Ok((tally, None));
     }
     let mut differing = 0;
+    let mut stack = Stack::default();
     for ray in &rays {
-        let through = nearest_triangle::<M, _>(subject.tree, triangles, ray);
-        let mut best = None;
-        for number in 0..triangles.len() as u32 {
-            best = nearer(best, number, triangles, ray);
-        }
-        differing += u64::from(through != best);
+        let through = nearest_in::<M, _>(subject.tree, triangles, ray, &mut stack, NoProbe);
+        differing += u64::from(through != brute_force(triangles, triangles.len(), ray));
     }
     Ok((tally, Some(differing)))
 }
@@ -229,34 +222,14 @@ fn has_area(object: Object<'_>) -> bool {
     }
 }
 
-/// The nearer of the best hit so far and that of a triangle; at equal t the lower number.
-fn nearer<V: Vector>(
-    best: Option<(V::Real, u32)>,
-    number: u32,
-    triangles: &[Triangle<V>],
+/// The nearest hit of all objects tested one after the other; at equal t the lowest number.
+fn brute_force<V: Vector>(
+    objects: &(impl Targets<Vector = V> + ?Sized),
+    n: usize,
     ray: &Ray<V>,
-) -> Option<(V::Real, u32)> {
-    match (best, triangles[number as usize].intersect(ray)) {
-        (Some(best), Some(t)) if best <= (t, number) => Some(best),
-        (_, Some(t)) => Some((t, number)),
-        (best, None) => best,
-    }
-}
-
-/// The nearest hit through a tree of any numbers.
-fn nearest_triangle<M: Mode, T: Planes>(
-    tree: &T,
-    triangles: &[Triangle<T::Vector>],
-    ray: &Ray<T::Vector>,
-) -> Option<(T::Real, u32)> {
-    let mut best = None;
-    let leaf = |in_leaf: &[u32], _: &mut NoProbe| {
-        for &number in in_leaf {
-            best = nearer(best, number, triangles, ray);
-        }
-        best.map_or(T::Real::INFINITY, |(t, _)| t)
-    };
-    let mut stack = Stack::default();
-    traverse::<M, T, _>(tree, &ray.line, ray.span, &mut stack, &mut NoProbe, leaf);
-    best
+) -> Option<Hit<V::Real>> {
+    (0..n as u32).fold(None, |best, number| match objects.intersect(number, ray) {
+        Some(t) => Hit::nearer(best, number, t),
+        None => best,
+    })
 }
