@@ -5,7 +5,7 @@ mod common;
 
 use common::{STOPS, gridded_boxes, hard_lines, random_boxes, tree};
 use sahlab::geom::{Line, Span};
-use sahlab::kd::stream::{Streams, count_lines};
+use sahlab::kd::stream::{Lanes, Streams, count_lines};
 use sahlab::kd::traverse::traverse_line;
 use sahlab::kd::{Counts, NodeKind, Stack, Strategy, Tree, predict};
 use sahlab::rays::SurfaceLines;
@@ -43,9 +43,16 @@ fn plain(tree: &Tree, lines: &[Line]) -> Counts {
 }
 
 fn streamed(tree: &Tree, lines: &[Line]) -> Counts {
-    let mut counts = Counts::new(tree);
-    Streams::default().count(tree, lines, &mut counts);
-    counts
+    let with = |lanes: Lanes| {
+        let mut counts = Counts::new(tree);
+        Streams::with(lanes).count(tree, lines, &mut counts);
+        counts
+    };
+    let portable = with(Lanes::PORTABLE);
+    for lanes in Lanes::available() {
+        assert_eq!(with(lanes), portable, "{}", lanes.name());
+    }
+    portable
 }
 
 #[test]

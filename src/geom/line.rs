@@ -91,41 +91,52 @@ impl<V: Vector> Line<V> {
     pub fn t_at(&self, axis: Axis, s: V::Real) -> V::Real {
         (s - self.origin[axis]) * self.inverse[axis]
     }
-}
 
-impl Line {
     /// Whether any of the three direction parts counts as zero.
     #[inline]
     pub fn is_axis_parallel(&self) -> bool {
-        self.inverse.cmpeq(DVec3::ZERO).any()
-    }
-
-    /// The point at t.
-    pub fn at(&self, t: f64) -> DVec3 {
-        self.origin + t * self.direction
+        (0..3).any(|k| self.is_parallel(k))
     }
 
     /// Which of the eight octants the direction points into: bit k is set where part k is negative.
     #[inline]
     pub fn octant(&self) -> usize {
-        let d = self.inverse;
-        usize::from(d.x < 0.0) | usize::from(d.y < 0.0) << 1 | usize::from(d.z < 0.0) << 2
+        let negative = |k: Axis| usize::from(self.inverse[k] < V::Real::ZERO) << k;
+        negative(0) | negative(1) | negative(2)
     }
 }
 
-/// A line with a range of t and the constants of the watertight triangle test: what object tests take.
+impl Line {
+    /// The point at t.
+    pub fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.direction
+    }
+}
+
+/// A ray's own frame, in which it runs along z: the constants of the watertight triangle test.
 ///
 /// The shear maps the ray to the z axis (Woop, Benthin, Wald 2013, JCGT 2(1)): the direction's largest part becomes z.
+#[derive(Clone, Copy, Debug)]
+#[repr(C)]
+pub struct Frame<T> {
+    /// The line's origin in the order of these axes.
+    pub origin: [T; 3],
+    /// Shear in x and y, scale in z.
+    pub shear: [T; 3],
+    /// The axis that becomes x, that which becomes y, and that which becomes z, in an order that keeps the winding; and 0,
+    /// so that these are a word without padding.
+    pub axes: [u8; 4],
+}
+
+/// A line with a range of t and the constants of the watertight triangle test: what object tests take.
 #[derive(Clone, Copy, Debug)]
 pub struct Ray<V: Vector = DVec3> {
     /// The line.
     pub line: Line<V>,
     /// Hits outside this range do not count; both ends do.
     pub span: Span<V::Real>,
-    /// The axis that becomes z, preceded by the two others in an order that keeps the winding.
-    pub(super) axes: [Axis; 3],
-    /// Shear in x and y, scale in z.
-    pub(super) shear: V,
+    /// The ray's own frame.
+    pub frame: Frame<V::Real>,
 }
 
 impl<V: Vector> Ray<V> {
@@ -144,24 +155,25 @@ impl<V: Vector> Ray<V> {
         if d[kz] < V::Real::ZERO {
             std::mem::swap(&mut kx, &mut ky);
         }
-        Self {
-            line,
-            span,
-            axes: [kx, ky, kz],
-            shear: [d[kx] / d[kz], d[ky] / d[kz], V::Real::ONE / d[kz]].into(),
-        }
+        let frame = Frame {
+            origin: [kx, ky, kz].map(|k| line.origin[k]),
+            shear: [d[kx] / d[kz], d[ky] / d[kz], V::Real::ONE / d[kz]],
+            axes: [kx, ky, kz, 0].map(|k| k as u8),
+        };
+        Self { line, span, frame }
     }
 
     /// A point in the ray's own frame: relative to the origin, sheared so that the ray runs along z with z = t.
-    #[inline]
-    pub(super) fn sheared(&self, p: V) -> V {
-        let q = p - self.line.origin;
-        let [kx, ky, kz] = self.axes;
-        V::from([
-            q[kx] - self.shear[0] * q[kz],
-            q[ky] - self.shear[1] * q[kz],
-            self.shear[2] * q[kz],
-        ])
+    #[inline(always)]
+    pub(super) fn sheared(&self, p: &V) -> [V::Real; 3] {
+        let (p, frame) = (p.parts(), &self.frame);
+        let [kx, ky, kz, _] = frame.axes.map(usize::from);
+        let z = p[kz] - frame.origin[2];
+        [
+            (p[kx] - frame.origin[0]) - frame.shear[0] * z,
+            (p[ky] - frame.origin[1]) - frame.shear[1] * z,
+            frame.shear[2] * z,
+        ]
     }
 
     /// The ray's span of an object's own box, widened as in tracing; `None` if it misses the box, or if none of that span
@@ -182,9 +194,9 @@ impl<V: Vector> Ray<V> {
 impl Ray {
     /// The second coordinate of [`sheared`](Self::sheared) alone, bit for bit.
     #[inline]
-    pub(super) fn sheared_height(&self, p: DVec3) -> f64 {
-        let [_, ky, kz] = self.axes;
-        let o = self.line.origin;
-        (p[ky] - o[ky]) - self.shear.y * (p[kz] - o[kz])
+    pub(super) fn sheared_height(&self, p: &DVec3) -> f64 {
+        let (p, frame) = (p.parts(), &self.frame);
+        let [_, ky, kz, _] = frame.axes.map(usize::from);
+        (p[ky] - frame.origin[1]) - frame.shear[1] * (p[kz] - frame.origin[2])
     }
 }

@@ -18,7 +18,7 @@ pub use aabb::Aabb;
 pub use cast::Cast;
 pub use clip::{Clipper, clip_slack};
 pub use cone::Cone;
-pub use line::{Line, Ray, Span, slack};
+pub use line::{Frame, Line, Ray, Span, slack};
 pub use objects::{Object, Objects, Targets};
 pub use polygon::Polygon;
 pub use real::{Real, Vector};

@@ -75,6 +75,9 @@ pub trait Targets {
         number: u32,
         ray: &Ray<Self::Vector>,
     ) -> Option<<Self::Vector as Vector>::Real>;
+
+    /// Object `number` if it is a triangle: many rays at once can be tested against its edges.
+    fn triangle(&self, number: u32) -> Option<&Triangle<Self::Vector>>;
 }
 
 impl Targets for Objects {
@@ -89,6 +92,11 @@ impl Targets for Objects {
             Object::Polygon(polygon) => polygon.intersect(ray),
         }
     }
+
+    #[inline]
+    fn triangle(&self, number: u32) -> Option<&Triangle> {
+        self.triangles.get(number as usize)
+    }
 }
 
 impl<V: Vector> Targets for [Triangle<V>] {
@@ -97,6 +105,11 @@ impl<V: Vector> Targets for [Triangle<V>] {
     #[inline]
     fn intersect(&self, number: u32, ray: &Ray<V>) -> Option<V::Real> {
         self[number as usize].intersect(ray)
+    }
+
+    #[inline]
+    fn triangle(&self, number: u32) -> Option<&Triangle<V>> {
+        Some(&self[number as usize])
     }
 }
 

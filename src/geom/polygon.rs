@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 use std::ops::RangeInclusive;
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::{Aabb, Ray};
 
@@ -133,14 +133,21 @@ impl Polygon {
     }
 }
 
+/// A point in the ray's own frame, seen along the ray.
+#[inline]
+fn flat(ray: &Ray, p: &DVec3) -> DVec2 {
+    let [x, y, _] = ray.sheared(p);
+    DVec2::new(x, y)
+}
+
 /// Whether the ray, the origin of its own frame, lies on no edge's wrong side: inside a convex polygon, or on its edges. `false` if all edges lie on
 /// one line with it.
 #[inline]
 fn one_sided(corners: &[DVec3], ray: &Ray) -> bool {
     let (mut negative, mut positive) = (false, false);
-    let mut a = ray.sheared(corners[corners.len() - 1]).truncate();
+    let mut a = flat(ray, &corners[corners.len() - 1]);
     for &corner in corners {
-        let b = ray.sheared(corner).truncate();
+        let b = flat(ray, &corner);
         let side = a.perp_dot(b);
         a = b;
         negative |= side < 0.0;
@@ -161,14 +168,14 @@ fn one_sided(corners: &[DVec3], ray: &Ray) -> bool {
 fn even_odd(corners: &[DVec3], ray: &Ray) -> bool {
     let mut inside = false;
     let mut before = corners[corners.len() - 1];
-    let mut height = ray.sheared_height(before);
+    let mut height = ray.sheared_height(&before);
     for &corner in corners {
         let (from, low) = (before, height);
-        (before, height) = (corner, ray.sheared_height(corner));
+        (before, height) = (corner, ray.sheared_height(&corner));
         if (low > 0.0 && height > 0.0) || (low < 0.0 && height < 0.0) {
             continue;
         }
-        let [a, b] = [from, corner].map(|p| ray.sheared(p).truncate());
+        let [a, b] = [from, corner].map(|p| flat(ray, &p));
         let side = a.perp_dot(b);
         if side == 0.0 && a.dot(b) <= 0.0 {
             return true;

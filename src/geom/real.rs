@@ -45,6 +45,8 @@ pub trait Real:
     fn clamp(self, least: Self, most: Self) -> Self;
     /// Whether it is neither infinite nor NaN.
     fn is_finite(self) -> bool;
+    /// The same number in double precision.
+    fn to_f64(self) -> f64;
 }
 
 /// Three of them: a point or a direction.
@@ -58,6 +60,9 @@ pub trait Vector:
 {
     /// The type of its parts.
     type Real: Real;
+
+    /// Its parts in memory, for axes that only a ray knows.
+    fn parts(&self) -> &[Self::Real; 3];
 
     /// The lesser of each pair of parts.
     fn min(self, other: Self) -> Self;
@@ -99,10 +104,20 @@ macro_rules! precision {
             fn is_finite(self) -> bool {
                 self.is_finite()
             }
+
+            #[inline(always)]
+            fn to_f64(self) -> f64 {
+                self.into()
+            }
         }
 
         impl Vector for $vector {
             type Real = $real;
+
+            #[inline(always)]
+            fn parts(&self) -> &[$real; 3] {
+                self.as_ref()
+            }
 
             #[inline(always)]
             fn min(self, other: Self) -> Self {

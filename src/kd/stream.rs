@@ -4,12 +4,27 @@
 //! down the tree: at a node the list's length is added to the hits, and each line is appended to the near list where
 //! t >= t0 and to the far list where t <= t1. A visit costs a few sequential bytes instead of a cache miss per node.
 
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+mod lanes;
+mod lists;
+mod order;
+mod trace;
+
+use glam::DVec3;
 use rayon::prelude::*;
 
 use crate::geom::{Line, Span};
 
 use super::traverse::{Stack, traverse_line};
 use super::{Counts, NodeKind, Tree};
+
+pub use lanes::{Lane, Lanes};
+use lists::{Cut, Lists, room};
+use order::Order;
+pub use trace::RayStreams;
 
 /// Lines in one block. Blocks go to threads as they are free; counts are integers, so the result is the same.
 pub const BLOCK: u64 = 1 << 17;
@@ -46,54 +61,63 @@ where
         .reduce(|| Counts::new(tree), |a, b| a.merge(&b))
 }
 
-/// A line on its way down: its number in the set, and its span in the node.
-#[derive(Clone, Copy, Default)]
-struct Entry {
-    t0: f64,
-    t1: f64,
-    line: u32,
-}
-
 /// The arenas of one thread, kept from block to block.
-#[derive(Default)]
 pub struct Streams {
     /// Origin and reciprocal direction of the octant's lines, by axis.
     lines: [Vec<[f64; 2]>; 3],
-    /// Lists on their way down, the current node's on top.
-    entries: Vec<Entry>,
+    order: Order,
+    /// Lists on their way down.
+    lists: Lists<DVec3>,
     stack: Stack,
 }
 
+impl Default for Streams {
+    fn default() -> Self {
+        Self::with(Lanes::widest())
+    }
+}
+
 impl Streams {
+    /// With these instructions; counts are the same with all of them.
+    pub fn with(lanes: Lanes) -> Self {
+        Self {
+            lines: Default::default(),
+            order: Order::default(),
+            lists: Lists::new(lanes),
+            stack: Stack::default(),
+        }
+    }
+
     /// Add the counts of `lines`.
     pub fn count(&mut self, tree: &Tree, lines: &[Line], counts: &mut Counts) {
         counts.lines += lines.len() as u64;
-        // A line parallel to a coordinate plane has no near child there: those few go down one by one.
-        for line in lines.iter().filter(|l| l.is_axis_parallel()) {
-            traverse_line(tree, line, Span::FULL, &mut self.stack, &mut *counts);
+        self.order.clear();
+        for (number, line) in lines.iter().enumerate() {
+            // A line parallel to a coordinate plane has no near child there: those few go down one by one.
+            if line.is_axis_parallel() {
+                traverse_line(tree, line, Span::FULL, &mut self.stack, &mut *counts);
+            } else if let Some(span) = tree.world.clip(line, Span::FULL) {
+                self.order.add(number, line, &tree.world, span);
+            }
         }
-        for octant in 0..8 {
+        let mut order = std::mem::take(&mut self.order);
+        for (octant, numbers) in order.octants() {
             self.lines.iter_mut().for_each(Vec::clear);
-            self.entries.clear();
-            for line in lines
-                .iter()
-                .filter(|l| !l.is_axis_parallel() && l.octant() == octant)
-            {
+            self.lists.clear();
+            for line in numbers.map(|number| &lines[number]) {
+                // Those that miss the world are not in the order.
                 let Some(Span { t0, t1 }) = tree.world.clip(line, Span::FULL) else {
                     continue;
                 };
-                let number = self.lines[0].len() as u32;
-                for k in 0..3 {
-                    self.lines[k].push([line.origin[k], line.inverse[k]]);
+                self.lists.push(t0, t1, self.lines[0].len() as u32);
+                for (k, lines) in self.lines.iter_mut().enumerate() {
+                    lines.push([line.origin[k], line.inverse[k]]);
                 }
-                self.entries.push(Entry {
-                    t0,
-                    t1,
-                    line: number,
-                });
             }
-            self.descend(tree, 0, octant, 0, self.entries.len(), counts);
+            let n = self.lines[0].len();
+            self.descend(tree, 0, octant, 0, n, counts);
         }
+        self.order = order;
     }
 
     /// Count the list `start..start + n` at `node` and below it; the list's place is free afterwards.
@@ -117,45 +141,19 @@ impl Streams {
             }
             NodeKind::Inner { axis, split, left } => {
                 counts.work.inner += n as u64;
-                let (near_n, far_n) = self.divide(axis, split, start, n);
+                let cut = Cut {
+                    position: split,
+                    padding: 0.0,
+                    lines: &self.lines[axis],
+                };
+                let (near_n, far_n) = self.lists.divide(&cut, start, n);
                 let right_first = (octant >> axis) & 1;
                 let near = left as usize + right_first;
                 let far = left as usize + 1 - right_first;
                 // The near list lies behind the far one: it goes first, then its place is free.
-                self.descend(tree, near, octant, start + n, near_n, counts);
+                self.descend(tree, near, octant, start + room(n), near_n, counts);
                 self.descend(tree, far, octant, start, far_n, counts);
             }
         }
-    }
-
-    /// Divide a list at a plane: the far list takes its place, the near list comes behind it. Both appends write always
-    /// and advance if the line goes there, so there is no branch to mispredict.
-    #[inline]
-    fn divide(&mut self, axis: usize, split: f64, start: usize, n: usize) -> (usize, usize) {
-        let end = start + 2 * n;
-        if self.entries.len() < end {
-            self.entries.resize(end, Entry::default());
-        }
-        let (list, near) = self.entries[start..end].split_at_mut(n);
-        let lines = &self.lines[axis][..];
-        let (mut near_n, mut far_n) = (0, 0);
-        for i in 0..n {
-            let Entry { t0, t1, line } = list[i];
-            let [origin, inverse] = lines[line as usize];
-            let t = (split - origin) * inverse;
-            near[near_n] = Entry {
-                t0,
-                t1: t1.min(t),
-                line,
-            };
-            near_n += usize::from(t >= t0);
-            list[far_n] = Entry {
-                t0: t0.max(t),
-                t1,
-                line,
-            };
-            far_n += usize::from(t <= t1);
-        }
-        (near_n, far_n)
     }
 }

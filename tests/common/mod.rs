@@ -1,6 +1,8 @@
 //! Small worlds for tests.
 #![allow(dead_code, clippy::unwrap_used)]
 
+pub mod scenes;
+
 use glam::DVec3;
 use sahlab::cost::CostModel;
 use sahlab::geom::{Aabb, Line, Object, Objects};
