@@ -11,6 +11,8 @@ mod avx512;
 mod lanes;
 mod lists;
 mod order;
+#[cfg(test)]
+mod tests;
 mod trace;
 
 use glam::DVec3;

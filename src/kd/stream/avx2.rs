@@ -72,15 +72,17 @@ macro_rules! divide {
                 } else {
                     (1 << $lanes) - 1
                 };
-                let mut number = [0; $lanes];
-                // Lanes that are left over repeat the first line.
-                for (lane, number) in number.iter_mut().enumerate() {
-                    *number = line[i + if lane < left { lane } else { 0 }];
-                }
-                // SAFETY: i + lanes <= room, which every array holds.
-                let (first, last) =
-                    unsafe { ($load(t0.as_ptr().add(i)), $load(t1.as_ptr().add(i))) };
-                let [origin, inverse] = $gather(cut.lines, number);
+                // SAFETY: i + lanes <= room, which every array holds. Entries that are live hold numbers of lines of this
+                // cut, as all that are put into lists do; the others take line 0, and there are lines.
+                let (first, last, number, [origin, inverse]) = unsafe {
+                    let number: [u32; $lanes] = line.as_ptr().add(i).cast::<[u32; $lanes]>().read();
+                    (
+                        $load(t0.as_ptr().add(i)),
+                        $load(t1.as_ptr().add(i)),
+                        number,
+                        $gather(cut.lines, number, left),
+                    )
+                };
                 let t = $mul($sub(position, origin), inverse);
                 let slack = $min($mul(padding, $andnot(sign, t)), most);
                 let (earliest, latest) = ($sub(t, slack), $add(t, slack));
@@ -147,19 +149,46 @@ divide!(
 );
 
 /// Origins and reciprocals of 4 lines.
+///
+/// # Safety
+/// The first `left` numbers must be below the number of lines, and there must be lines.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn gather_f64(lines: &[[f64; 2]], number: [u32; 4]) -> [__m256d; 2] {
-    let [a, b, c, d] = number.map(|number| lines[number as usize]);
-    [0, 1].map(|part| _mm256_setr_pd(a[part], b[part], c[part], d[part]))
+unsafe fn gather_f64(lines: &[[f64; 2]], number: [u32; 4], left: usize) -> [__m256d; 2] {
+    let pair = |lane: usize| {
+        let number = if lane < left { number[lane] } else { 0 };
+        // SAFETY: see above; a pair is two numbers.
+        unsafe { _mm_loadu_pd(lines.as_ptr().add(number as usize).cast()) }
+    };
+    let (even, odd) = (
+        _mm256_set_m128d(pair(2), pair(0)),
+        _mm256_set_m128d(pair(3), pair(1)),
+    );
+    [_mm256_unpacklo_pd(even, odd), _mm256_unpackhi_pd(even, odd)]
 }
 
 /// Origins and reciprocals of 8 lines.
+///
+/// # Safety
+/// The first `left` numbers must be below the number of lines, and there must be lines.
 #[inline]
 #[target_feature(enable = "avx2")]
-fn gather_f32(lines: &[[f32; 2]], number: [u32; 8]) -> [__m256; 2] {
-    let [a, b, c, d, e, f, g, h] = number.map(|number| lines[number as usize]);
-    [0, 1].map(|p| _mm256_setr_ps(a[p], b[p], c[p], d[p], e[p], f[p], g[p], h[p]))
+unsafe fn gather_f32(lines: &[[f32; 2]], number: [u32; 8], left: usize) -> [__m256; 2] {
+    let pair = |lane: usize| {
+        let number = if lane < left { number[lane] } else { 0 };
+        // SAFETY: see above; a pair is as long as a number of 64 bits.
+        unsafe { _mm_load_sd(lines.as_ptr().add(number as usize).cast()) }
+    };
+    let four = |i: usize| {
+        let low = _mm_unpacklo_pd(pair(i), pair(i + 1));
+        let high = _mm_unpacklo_pd(pair(i + 4), pair(i + 5));
+        _mm256_castpd_ps(_mm256_set_m128d(high, low))
+    };
+    let (a, b) = (four(0), four(2));
+    [
+        _mm256_shuffle_ps::<0x88>(a, b),
+        _mm256_shuffle_ps::<0xdd>(a, b),
+    ]
 }
 
 /// The lanes that are set, in front.
@@ -187,9 +216,12 @@ fn pack_f32(numbers: __m256, set: usize) -> __m256 {
 #[inline]
 #[target_feature(enable = "avx2")]
 unsafe fn pack_lines_f64(to: *mut u32, number: [u32; 4], set: usize) {
-    let packed = FOUR[set].map(|lane| number[lane as usize]);
-    // SAFETY: see above.
-    unsafe { to.cast::<[u32; 4]>().write(packed) };
+    // SAFETY: a packing and the numbers have four words each, and see above.
+    unsafe {
+        let packing = _mm_loadu_si128(FOUR[set].as_ptr().cast());
+        let numbers = _mm_loadu_ps(number.as_ptr().cast());
+        _mm_storeu_ps(to.cast(), _mm_permutevar_ps(numbers, packing));
+    }
 }
 
 /// Write the line numbers that are set.

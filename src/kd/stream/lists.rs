@@ -63,6 +63,12 @@ impl<V: Lane> Lists<V> {
         self.line.push(line);
     }
 
+    /// An entry: t0, t1 and the number of its line.
+    #[cfg(test)]
+    pub fn get(&self, i: usize) -> (V::Real, V::Real, u32) {
+        (self.t0[i], self.t1[i], self.line[i])
+    }
+
     /// The numbers of the lines of the list `start..start + n`.
     #[inline(always)]
     pub fn lines(&self, start: usize, n: usize) -> &[u32] {
