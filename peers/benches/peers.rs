@@ -1,0 +1,116 @@
+//! sahlab beside other ray tracing libraries, on one thread of one machine.
+//!
+//! ```sh
+//! cargo bench -p peers --bench peers                       # about five minutes
+//! RUSTFLAGS="-C target-cpu=native" cargo bench -p peers --bench peers --target-dir target/native
+//! ```
+//!
+//! Prints tables and writes `data/published/peers-ratios.csv` and `data/bench/peers.md`; `validate publish bench` puts the
+//!
+//! Compared: building, nearest hits and any hits against Embree (if it is there, see `peers/src/embree.rs`), obvhs, parry3d,
+//! bvh and kdtree-ray; counting and making lines, which no library has, against our own slower ways. Left out: rtbvh 0.6,
+//! which loses hits, and what needs a C++ compiler.
+//!
+//! Fair play:
+//! - All get the same coordinates and rays in single precision, and what a library makes of them (boxes, triangles with
+//!   edges, reciprocals) is in its time. Rays are asked one by one; a stream is given all rays of a chunk at once.
+//! - Single precision halves memory and doubles the width of vectors; where our way is one of double precision (`f64` in
+//!   its name) that is to our disadvantage. Our triangle test is watertight (Woop, Benthin & Wald 2013); the tests of the
+//!   others are not, and cheaper. Embree's robust mode would cost it 15 to 26 %.
+//! - Embree and our own kernels ask the processor for AVX2 and AVX-512 while they run. The crates are compiled for what
+//!   the target has (x86-64: SSE2), as they are for a user who sets nothing; `target-cpu=native` as above changes that.
+//! - `bvh` and `kdtree-ray` bring no usable triangle test; the one of Möller & Trumbore stands in.
+//!
+//! Jobs of one work and scene run in eight rounds (four for a million triangles) of random order. A rate is of the sum of the
+//! least times of chunks of 4096 rays; the interval of a ratio is that of all halves of the rounds (`peers/src/ratio.rs`).
+
+use std::path::Path;
+
+use peers::report::{csv, locked, markdown};
+use peers::trial::{builds, compare, traces};
+use peers::{Mesh, camera, contestants, isotropic, own_ways};
+use rayon::ThreadPoolBuilder;
+use sahlab::archive::processor;
+use sahlab::files::write_atomic;
+use sahlab::scene::Scene;
+
+const ROUNDS: usize = 8;
+
+/// Rounds of builds that take seconds.
+const FEW_ROUNDS: usize = 4;
+
+/// Rays of each set: a camera of 256 x 256.
+const SIDE: u32 = 256;
+
+/// Crates, for their versions.
+const CRATES: [&str; 4] = ["obvhs", "parry3d", "bvh", "kdtree-ray"];
+
+fn main() {
+    // Some peers build in rayon's pool.
+    let pool = ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("a pool of one thread").install(measure);
+}
+
+fn measure() {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("..");
+    let mut notes = vec![format!(
+        "One thread of {}; crates: {}, compiled {} AVX2",
+        processor().as_deref().unwrap_or("an unnamed processor"),
+        CRATES.map(locked).join(", "),
+        if cfg!(target_feature = "avx2") {
+            "with"
+        } else {
+            "without"
+        },
+    )];
+    let peers = contestants(&mut notes);
+    let (mut contests, mut disagreements) = (Vec::new(), Vec::new());
+    let dragon = root.join("models/dragon_res3.ply");
+    let dragon = dragon.to_string_lossy();
+    for (name, spec) in [
+        ("soup1e4", "simple:soup:10000"),
+        ("soup1e5", "simple:soup:100000"),
+        ("dragon48k", &dragon),
+    ] {
+        let scene = match Scene::load(spec) {
+            Ok(scene) => scene,
+            Err(error) => {
+                notes.push(format!(
+                    "{name} is left out ({error}): run experiments/fetch-meshes.sh"
+                ));
+                continue;
+            }
+        };
+        let mesh = Mesh::new(&scene);
+        contests.push(builds(&peers, name, &mesh, ROUNDS));
+        let mut built: Vec<_> = peers
+            .iter()
+            .map(|peer| (peer.name().to_owned(), peer.build(&mesh)))
+            .collect();
+        for (name, rays) in [
+            (
+                name.to_owned(),
+                isotropic(mesh.world, u64::from(SIDE * SIDE)),
+            ),
+            (format!("{name}:camera"), camera(mesh.world, SIDE)),
+        ] {
+            disagreements.extend(compare(&mut built, &name, &rays, &mesh));
+            contests.extend(traces(&mut built, &name, &rays, ROUNDS));
+        }
+        contests.extend(own_ways(name, &scene, ROUNDS));
+        eprintln!("{name} is done");
+    }
+    let million = Scene::load("simple:soup:1000000").expect("a procedural scene");
+    contests.push(builds(&peers, "soup1e6", &Mesh::new(&million), FEW_ROUNDS));
+
+    contests.sort_by_key(|contest| contest.work);
+    let libraries: Vec<String> = peers.iter().map(|peer| peer.name().to_owned()).collect();
+    let table = markdown(&contests, &libraries, &disagreements, &notes);
+    print!("{table}");
+    for (file, text) in [
+        ("data/published/peers-ratios.csv", csv(&contests)),
+        ("data/bench/peers.md", table),
+    ] {
+        write_atomic(&root.join(file), text.as_bytes()).expect("data can be written");
+    }
+}
