@@ -304,9 +304,14 @@ fn runs_are_published_one_by_one() {
     assert!(root.join("plots/published/f/figure3.svg").is_file());
     // A benchmark has no summary.
     fs::create_dir_all(root.join("data/bench")).unwrap();
-    fs::write(root.join("data/bench/throughput.md"), "| 1 |\n").unwrap();
-    publish(&["bench"]).code(0);
-    assert!(root.join("data/published/bench/throughput.md").is_file());
+    // Each of its files is published by itself: the other one stays.
+    for bench in ["count.md", "trace.md"] {
+        fs::write(root.join("data/bench").join(bench), "| 1 |\n").unwrap();
+        publish(&["bench"]).code(0);
+        fs::remove_file(root.join("data/bench").join(bench)).unwrap();
+    }
+    assert!(root.join("data/published/bench/count.md").is_file());
+    assert!(root.join("data/published/bench/trace.md").is_file());
 }
 
 #[test]

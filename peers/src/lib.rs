@@ -20,7 +20,7 @@ use glam::Vec3;
 use sahlab::geom::Aabb;
 use sahlab::scene::Scene;
 
-pub use own_ways::own_ways;
+pub use own_ways::OwnWays;
 pub use rays::{camera, isotropic};
 
 /// A ray from t = 0 on that never ends; t counts in units of the direction's length.
@@ -97,11 +97,8 @@ pub trait Tracer {
 /// What is missing is told in `notes`.
 pub fn contestants(notes: &mut Vec<String>) -> Vec<Box<dyn Peer>> {
     let mut all = ours::ways();
-    let embrees = embree::found();
-    if embrees.is_empty() {
-        notes.push(embree::HOW_TO_GET_IT.into());
-    }
-    all.extend(embrees.into_iter().map(|e| Box::new(e) as Box<dyn Peer>));
+    let embrees = embree::found(notes).into_iter();
+    all.extend(embrees.map(|e| Box::new(e) as Box<dyn Peer>));
     all.extend([
         Box::new(obvhs::Wide) as Box<dyn Peer>,
         Box::new(obvhs::Binary),

@@ -9,56 +9,82 @@ use sahlab::rays::SurfaceLines;
 use sahlab::scene::Scene;
 
 use crate::ours;
-use crate::trial::{Contest, Job, Work, seconds};
+use crate::trial::{Job, Plan, Work, seconds};
 
-/// Counting by line streams against the plain loop; and making a block of lines against counting it.
-pub fn own_ways(name: &str, scene: &Scene, rounds: usize) -> [Contest; 2] {
-    let rules = Rules {
-        strategy: Strategy::Sah,
-        stop: StopRule::CostGain { depth: None },
-        cost: CostModel::WALD_HAVRAN,
-        clipped: false,
-    };
-    let tree = build(&scene.bounds, scene.world, &rules);
-    let sampler = SurfaceLines {
-        world: scene.world,
-        seed: 1,
-    };
-    let make = || sampler.range(0..BLOCK).collect::<Vec<Line>>();
-    let lines = make();
-    let mut streams = Streams::default();
-    let counted = streamed(&mut streams, &tree, &lines);
-    assert_eq!(
-        counted,
-        plain(&tree, &lines),
-        "streams and plain loop disagree"
-    );
-
-    let jobs: Vec<Job> = vec![
-        (
-            ours::STREAMS.into(),
-            Box::new(|| seconds(|| streamed(&mut streams, &tree, &lines))),
-        ),
-        (
-            "sahlab-plain-f64".into(),
-            Box::new(|| seconds(|| plain(&tree, &lines))),
-        ),
-    ];
-    let count = Contest::run(Work::Count, name, counted.visits() as f64, rounds, jobs);
-    let jobs: Vec<Job> = vec![
-        (ours::LINES.into(), Box::new(|| seconds(make))),
-        (
-            "sahlab-count-f64".into(),
-            Box::new(|| seconds(|| streamed(&mut streams, &tree, &lines))),
-        ),
-    ];
-    [
-        count,
-        Contest::run(Work::Lines, name, BLOCK as f64, rounds, jobs),
-    ]
+/// A tree, and a block of lines to count in it.
+pub struct OwnWays {
+    tree: Tree,
+    sampler: SurfaceLines,
+    lines: Vec<Line>,
+    visits: u64,
 }
 
-fn streamed(streams: &mut Streams, tree: &Tree, lines: &[Line]) -> Counts {
+impl OwnWays {
+    /// By the surface area heuristic, not clipped.
+    ///
+    /// # Panics
+    /// If the ways to count disagree.
+    pub fn new(scene: &Scene) -> Self {
+        let rules = Rules {
+            strategy: Strategy::Sah,
+            stop: StopRule::CostGain { depth: None },
+            cost: CostModel::WALD_HAVRAN,
+            clipped: false,
+        };
+        let tree = build(&scene.bounds, scene.world, &rules);
+        let sampler = SurfaceLines {
+            world: scene.world,
+            seed: 1,
+        };
+        let lines: Vec<Line> = sampler.range(0..BLOCK).collect();
+        let counted = streamed(&tree, &lines, &mut Streams::default());
+        assert_eq!(
+            counted,
+            plain(&tree, &lines),
+            "streams and plain loop disagree"
+        );
+        Self {
+            tree,
+            sampler,
+            lines,
+            visits: counted.visits(),
+        }
+    }
+
+    /// Counting by line streams against the plain loop; making a block of lines against counting it.
+    pub fn plans(&self, scene: &str) -> [Plan<'_>; 2] {
+        let Self { tree, lines, .. } = self;
+        let streams = || {
+            let mut streams = Streams::default();
+            Box::new(move || seconds(|| streamed(tree, lines, &mut streams)))
+        };
+        let count: Vec<Job> = vec![
+            (ours::STREAMS.into(), streams()),
+            (
+                "sahlab-plain-f64".into(),
+                Box::new(|| seconds(|| plain(tree, lines))),
+            ),
+        ];
+        let make = || self.sampler.range(0..BLOCK).collect::<Vec<Line>>();
+        let making: Vec<Job> = vec![
+            (ours::LINES.into(), Box::new(move || seconds(make))),
+            ("sahlab-count-f64".into(), streams()),
+        ];
+        let visits = self.visits as f64;
+        [
+            (Work::Count, visits, count),
+            (Work::Lines, BLOCK as f64, making),
+        ]
+        .map(|(work, amount, jobs)| Plan {
+            work,
+            scene: scene.into(),
+            amount,
+            jobs,
+        })
+    }
+}
+
+fn streamed(tree: &Tree, lines: &[Line], streams: &mut Streams) -> Counts {
     let mut counts = Counts::new(tree);
     streams.count(tree, lines, &mut counts);
     counts

@@ -1,5 +1,6 @@
-//! The clock: jobs of one contest run in rounds of random order, on one thread.
+//! The clock: jobs run in rounds of random order, on one thread.
 
+use std::cell::RefCell;
 use std::time::Instant;
 
 use rand::SeedableRng;
@@ -40,44 +41,52 @@ impl Work {
 /// A job: its name, and a pass that gives the seconds of its chunks.
 pub type Job<'a> = (String, Box<dyn FnMut() -> Vec<f64> + 'a>);
 
-/// What the jobs of one work on one scene took.
-pub struct Contest {
+/// The jobs of one work on one scene.
+pub struct Plan<'a> {
     /// The work.
     pub work: Work,
     /// The scene, after a colon the rays if they are not isotropic ones.
     pub scene: String,
     /// What a pass does, in the units of the work.
     pub amount: f64,
+    /// Who does it.
+    pub jobs: Vec<Job<'a>>,
+}
+
+/// What the jobs of a plan took.
+pub struct Contest {
+    /// As in the plan.
+    pub work: Work,
+    /// As in the plan.
+    pub scene: String,
+    /// As in the plan.
+    pub amount: f64,
     /// Times by job.
     pub times: Vec<(String, Times)>,
 }
 
-impl Contest {
-    /// Run all jobs, in a fresh random order every round.
-    pub fn run(
-        work: Work,
-        scene: impl Into<String>,
-        amount: f64,
-        rounds: usize,
-        mut jobs: Vec<Job>,
-    ) -> Self {
-        let mut generator = ChaCha8Rng::seed_from_u64(1);
-        let mut order: Vec<usize> = (0..jobs.len()).collect();
-        let mut times = vec![Times::default(); jobs.len()];
-        for _ in 0..rounds {
+/// Run all plans, one after the other in every round, so that no plan has all its rounds in one bad minute. A plan's jobs
+/// follow each other in a fresh random order every round.
+pub fn run(mut plans: Vec<Plan>, rounds: usize) -> Vec<Contest> {
+    let mut generator = ChaCha8Rng::seed_from_u64(1);
+    let none = |plan: &Plan| vec![Times::default(); plan.jobs.len()];
+    let mut times: Vec<Vec<Times>> = plans.iter().map(none).collect();
+    for _ in 0..rounds {
+        for (plan, times) in plans.iter_mut().zip(&mut times) {
+            let mut order: Vec<usize> = (0..plan.jobs.len()).collect();
             order.shuffle(&mut generator);
-            for &i in &order {
-                times[i].add_round(jobs[i].1());
+            for i in order {
+                times[i].add_round(plan.jobs[i].1());
             }
         }
-        let names = jobs.into_iter().map(|job| job.0);
-        Self {
-            work,
-            scene: scene.into(),
-            amount,
-            times: names.zip(times).collect(),
-        }
     }
+    let contest = |(plan, times): (Plan, Vec<Times>)| Contest {
+        work: plan.work,
+        scene: plan.scene,
+        amount: plan.amount,
+        times: plan.jobs.into_iter().map(|job| job.0).zip(times).collect(),
+    };
+    plans.into_iter().zip(times).map(contest).collect()
 }
 
 /// Seconds of a job as a whole; what it makes is dropped after the clock has stopped.
@@ -90,17 +99,31 @@ pub fn seconds<T>(job: impl FnOnce() -> T) -> Vec<f64> {
 }
 
 /// All that build a mesh of this size in a sensible time build it.
-pub fn builds(peers: &[Box<dyn Peer>], scene: &str, mesh: &Mesh, rounds: usize) -> Contest {
-    let able = peers.iter().filter(|p| mesh.len() <= p.most_triangles());
-    let job = |peer| -> Job {
-        let peer: &dyn Peer = peer;
-        (
-            peer.name().into(),
-            Box::new(|| seconds(|| peer.build(mesh))),
-        )
+pub fn builds<'a>(peers: &'a [Box<dyn Peer>], scene: &str, mesh: &'a Mesh) -> Plan<'a> {
+    let able = all(peers).filter(|p| mesh.len() <= p.most_triangles());
+    let job = |peer: &'a dyn Peer| -> Job<'a> {
+        let build = move || seconds(|| peer.build(mesh));
+        (peer.name().into(), Box::new(build))
     };
-    let jobs = able.map(|peer| job(peer.as_ref())).collect();
-    Contest::run(Work::Build, scene, mesh.len() as f64, rounds, jobs)
+    Plan {
+        work: Work::Build,
+        scene: scene.into(),
+        amount: mesh.len() as f64,
+        jobs: able.map(job).collect(),
+    }
+}
+
+/// What everybody has built of a mesh, by name; asked by several plans in turn.
+pub type Built<'a> = Vec<(String, RefCell<Box<dyn Tracer + 'a>>)>;
+
+/// Build once.
+pub fn build_all<'a>(peers: &'a [Box<dyn Peer>], mesh: &'a Mesh) -> Built<'a> {
+    let named = |peer: &'a dyn Peer| (peer.name().into(), RefCell::new(peer.build(mesh)));
+    all(peers).map(named).collect()
+}
+
+fn all(peers: &[Box<dyn Peer>]) -> impl Iterator<Item = &dyn Peer> {
+    peers.iter().map(Box::as_ref)
 }
 
 /// Rays of which the least time is taken one by one.
@@ -117,26 +140,31 @@ fn chunks<T: Clone>(rays: &[Ray], none: T, mut trace: impl FnMut(&[Ray], &mut [T
 }
 
 /// The same rays through everything that has been built: nearest hits, and any hits.
-pub fn traces(
-    built: &mut [(String, Box<dyn Tracer + '_>)],
-    scene: &str,
-    rays: &[Ray],
-    rounds: usize,
-) -> [Contest; 2] {
-    let amount = rays.len() as f64;
-    let jobs = built.iter_mut().map(|(name, tracer)| -> Job {
-        let nearest = || chunks(rays, 0.0, |rays, hits| tracer.nearest(rays, hits));
+pub fn traces<'a>(built: &'a Built, scene: &str, rays: &'a [Ray]) -> [Plan<'a>; 2] {
+    let nearest = built.iter().map(|(name, tracer)| -> Job<'a> {
+        let nearest = || {
+            let mut tracer = tracer.borrow_mut();
+            chunks(rays, 0.0, |rays, hits| tracer.nearest(rays, hits))
+        };
         (name.clone(), Box::new(nearest))
     });
-    let nearest = Contest::run(Work::Nearest, scene, amount, rounds, jobs.collect());
-    let jobs = built.iter_mut().map(|(name, tracer)| -> Job {
-        let any = || chunks(rays, false, |rays, hits| tracer.any(rays, hits));
+    let any = built.iter().map(|(name, tracer)| -> Job<'a> {
+        let any = || {
+            let mut tracer = tracer.borrow_mut();
+            chunks(rays, false, |rays, hits| tracer.any(rays, hits))
+        };
         (name.clone(), Box::new(any))
     });
     [
-        nearest,
-        Contest::run(Work::Any, scene, amount, rounds, jobs.collect()),
+        (Work::Nearest, nearest.collect()),
+        (Work::Any, any.collect()),
     ]
+    .map(|(work, jobs)| Plan {
+        work,
+        scene: scene.into(),
+        amount: rays.len() as f64,
+        jobs,
+    })
 }
 
 /// How many rays have a nearest hit, or any, that differs from the first contestant's.
@@ -155,15 +183,11 @@ pub struct Disagreement {
 }
 
 /// Compare everybody's hits with the first one's: t may differ by 1e-4 of itself and 1e-6 of the world's diagonal.
-pub fn compare(
-    built: &mut [(String, Box<dyn Tracer + '_>)],
-    scene: &str,
-    rays: &[Ray],
-    mesh: &Mesh,
-) -> Vec<Disagreement> {
+pub fn compare(built: &Built, scene: &str, rays: &[Ray], mesh: &Mesh) -> Vec<Disagreement> {
     let slack = 1e-6 * (mesh.world.hi - mesh.world.lo).length() as f32;
     let same = |a: f32, b: f32| a == b || (a - b).abs() <= 1e-4 * a.abs() + slack;
-    let mut answers = built.iter_mut().map(|(name, tracer)| {
+    let mut answers = built.iter().map(|(name, tracer)| {
+        let mut tracer = tracer.borrow_mut();
         let mut nearest = vec![0.0; rays.len()];
         let mut any = vec![false; rays.len()];
         tracer.nearest(rays, &mut nearest);

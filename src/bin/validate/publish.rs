@@ -26,12 +26,9 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
         for part in ["data", "plots"] {
             let from = root.join(part).join(name);
             let to = root.join(part).join("published").join(name);
-            // What an earlier publication left may not belong to this run.
-            match fs::remove_dir_all(&to) {
-                Err(error) if error.kind() != ErrorKind::NotFound => {
-                    return Err(error).with_context(|| format!("{}: cannot replace", to.display()));
-                }
-                _ => {}
+            // What an earlier publication left may not belong to this run; a benchmark belongs to no other.
+            if name != BENCH {
+                remove(&to)?;
             }
             if from.is_dir() {
                 copy(&from, &to)?;
@@ -58,7 +55,17 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
     Ok(true)
 }
 
-/// The folder of benchmarks, which has no summary.
+/// Remove a folder, if there is one.
+fn remove(folder: &Path) -> Result<()> {
+    match fs::remove_dir_all(folder) {
+        Err(error) if error.kind() != ErrorKind::NotFound => {
+            Err(error).with_context(|| format!("{}: cannot replace", folder.display()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// The folder of benchmarks, a file each. It has no summary, and those that were not run again stay published.
 const BENCH: &str = "bench";
 
 /// A run may be published if it is finished and not the quick form.

@@ -1,15 +1,21 @@
 //! Embree 3 or 4, opened while the program runs: no header, no C compiler, and no failure to build where it is missing.
 //!
-//! Only what a triangle mesh and single rays need is declared, after `rtcore_*.h` of 3.13 and 4.4. Its scene is the default
-//! one: a BVH of medium quality, not robust (so not watertight), and for single rays the widest instructions there are.
+//! Its scene is the default one: a BVH of medium quality, not robust (so not watertight), and for single rays the widest
+//! instructions there are.
 #![allow(unsafe_code)]
 
-use std::ffi::{c_char, c_int, c_uint, c_void};
+mod api;
+
+use std::ffi::{c_char, c_int};
 use std::ptr;
 
 use libloading::Library;
 
 use crate::{Mesh, Peer, Ray, Tracer};
+use api::{
+    BUFFER_TYPE_INDEX, BUFFER_TYPE_VERTEX, Context, FORMAT_FLOAT3, FORMAT_UINT3, Functions,
+    GEOMETRY_TYPE_TRIANGLE, Handle, RayHit, Single, VERSION,
+};
 
 /// What the dynamic linker is asked for.
 const NAMES: [&str; 2] = ["libembree4.so.4", "libembree3.so.3"];
@@ -18,122 +24,28 @@ const NAMES: [&str; 2] = ["libembree4.so.4", "libembree3.so.3"];
 const VARIABLE: &str = "EMBREE_LIBRARY";
 
 /// What to say where there is none.
-pub const HOW_TO_GET_IT: &str = "Embree was not found, so its rows are missing: `apt-get install libembree-dev` gives \
-     version 3; for version 4 unpack the wheel that `pip download --no-deps embreex` fetches, and set EMBREE_LIBRARY to the \
-     path of `embreex.libs/libembree4-*.so.4` in it";
+const HOW_TO_GET_IT: &str = "Embree was not found, so its columns are missing: `apt-get install libembree-dev` gives version 3; \
+     for version 4 unpack the wheel that `pip download --no-deps embreex` fetches, and set EMBREE_LIBRARY to the path of \
+     `embreex.libs/libembree4-*.so.4` in it";
 
-/// Every Embree there is, each version once.
-pub fn found() -> Vec<Embree> {
-    let named = std::env::var(VARIABLE).ok();
-    let names = named.into_iter().chain(NAMES.map(String::from));
+/// Every Embree there is, each version once; what is missing goes to the notes.
+pub fn found(notes: &mut Vec<String>) -> Vec<Embree> {
     let mut all: Vec<Embree> = Vec::new();
-    for embree in names.filter_map(|name| Embree::open(&name)) {
+    if let Ok(named) = std::env::var(VARIABLE) {
+        match Embree::open(&named) {
+            Some(embree) => all.push(embree),
+            None => notes.push(format!("{VARIABLE} names no library of Embree 3 or 4")),
+        }
+    }
+    for embree in NAMES.iter().filter_map(|name| Embree::open(name)) {
         if all.iter().all(|e| e.name != embree.name) {
             all.push(embree);
         }
     }
+    if all.is_empty() {
+        notes.push(HOW_TO_GET_IT.into());
+    }
     all
-}
-
-type Handle = *mut c_void;
-
-/// The properties of a device that tell its version: major, minor, patch.
-const VERSION: [c_int; 3] = [1, 2, 3];
-const GEOMETRY_TYPE_TRIANGLE: c_int = 0;
-const BUFFER_TYPE_INDEX: c_int = 0;
-const BUFFER_TYPE_VERTEX: c_int = 1;
-const FORMAT_UINT3: c_int = 0x5003;
-const FORMAT_FLOAT3: c_int = 0x9003;
-const INVALID: c_uint = c_uint::MAX;
-
-/// `RTCRayHit`: a ray and its hit. Embree 4 may keep one number more at the end; `rest` leaves room for it.
-#[repr(C, align(16))]
-struct RayHit {
-    origin: [f32; 3],
-    near: f32,
-    direction: [f32; 3],
-    time: f32,
-    far: f32,
-    mask: c_uint,
-    id: c_uint,
-    flags: c_uint,
-    normal: [f32; 3],
-    uv: [f32; 2],
-    primitive: c_uint,
-    geometry: c_uint,
-    instance: c_uint,
-    rest: [c_uint; 4],
-}
-
-impl RayHit {
-    #[inline]
-    fn new(ray: &Ray) -> Self {
-        Self {
-            origin: ray.origin,
-            near: 0.0,
-            direction: ray.direction,
-            time: 0.0,
-            far: f32::INFINITY,
-            mask: INVALID,
-            id: 0,
-            flags: 0,
-            normal: [0.0; 3],
-            uv: [0.0; 2],
-            primitive: INVALID,
-            geometry: INVALID,
-            instance: INVALID,
-            rest: [INVALID; 4],
-        }
-    }
-}
-
-/// `RTCIntersectContext` of Embree 3, with room for fields that a build may add.
-#[repr(C)]
-struct Context {
-    flags: c_int,
-    filter: *const c_void,
-    instance: c_uint,
-    rest: [c_uint; 8],
-}
-
-impl Default for Context {
-    /// As `rtcInitIntersectContext` sets it.
-    fn default() -> Self {
-        Self {
-            flags: 0,
-            filter: ptr::null(),
-            instance: INVALID,
-            rest: [0; 8],
-        }
-    }
-}
-
-/// The functions used, by their names in Embree.
-struct Functions {
-    release_device: unsafe extern "C" fn(Handle),
-    new_scene: unsafe extern "C" fn(Handle) -> Handle,
-    release_scene: unsafe extern "C" fn(Handle),
-    commit_scene: unsafe extern "C" fn(Handle),
-    new_geometry: unsafe extern "C" fn(Handle, c_int) -> Handle,
-    release_geometry: unsafe extern "C" fn(Handle),
-    set_shared_buffer:
-        unsafe extern "C" fn(Handle, c_int, c_uint, c_int, *const c_void, usize, usize, usize),
-    commit_geometry: unsafe extern "C" fn(Handle),
-    attach_geometry: unsafe extern "C" fn(Handle, Handle) -> c_uint,
-    single: Single,
-}
-
-/// The calls for single rays; their arguments differ between the versions.
-#[derive(Clone, Copy)]
-enum Single {
-    Three {
-        intersect: unsafe extern "C" fn(Handle, *mut Context, *mut RayHit),
-        occluded: unsafe extern "C" fn(Handle, *mut Context, *mut RayHit),
-    },
-    Four {
-        intersect: unsafe extern "C" fn(Handle, *mut RayHit, *const c_void),
-        occluded: unsafe extern "C" fn(Handle, *mut RayHit, *const c_void),
-    },
 }
 
 /// A library with a device of one thread.
