@@ -15,6 +15,7 @@ pub mod ratio;
 mod rays;
 pub mod report;
 pub mod trial;
+mod waiting;
 
 use glam::Vec3;
 use sahlab::geom::Aabb;
@@ -22,6 +23,7 @@ use sahlab::scene::Scene;
 
 pub use own_ways::OwnWays;
 pub use rays::{camera, isotropic};
+pub use waiting::Waiting;
 
 /// A ray from t = 0 on that never ends; t counts in units of the direction's length.
 #[derive(Clone, Copy, Debug)]
