@@ -9,7 +9,7 @@ use std::thread::available_parallelism;
 use common::{Jobs, Table, rules};
 use rayon::ThreadPoolBuilder;
 use sahlab::geom::{Line, Span};
-use sahlab::kd::stream::{BLOCK, Streams, count_lines};
+use sahlab::kd::stream::{BLOCK, Lanes, Streams, count_lines};
 use sahlab::kd::traverse::traverse_line;
 use sahlab::kd::{Counts, NoProbe, Stack, Strategy, Tree, build};
 use sahlab::rays::SurfaceLines;
@@ -43,18 +43,12 @@ fn rows(scene: &Scene, stop: &str, table: &mut Table) {
         let pool = ThreadPoolBuilder::new().num_threads(threads).build();
         pool.expect("a pool of threads")
     });
-    let mut streams = Streams::default();
-    let mut streamed = || {
+    let counts = plain(&tree, &lines);
+    let streamed = |streams: &mut Streams| {
         let mut counts = Counts::new(&tree);
         streams.count(&tree, &lines, &mut counts);
         counts
     };
-    let counts = streamed();
-    assert_eq!(
-        plain(&tree, &lines),
-        counts,
-        "streams and plain loop disagree"
-    );
 
     let mut jobs = Jobs::default();
     jobs.add(|| plain(&tree, &lines));
@@ -64,7 +58,19 @@ fn rows(scene: &Scene, stop: &str, table: &mut Table) {
             traverse_line(&tree, line, Span::FULL, &mut stack, NoProbe);
         }
     });
-    jobs.add(streamed);
+    let mut names = vec![
+        ("plain loop, hits of every node".to_owned(), 1),
+        ("plain loop, nothing counted".to_owned(), 1),
+    ];
+    for lanes in Lanes::available() {
+        let mut streams = Streams::with(lanes);
+        assert_eq!(streamed(&mut streams), counts, "{} differ", lanes.name());
+        jobs.add(move || streamed(&mut streams));
+        names.push((
+            format!("line streams, {}, hits of every node", lanes.name()),
+            1,
+        ));
+    }
     for pool in &pools {
         let blocks = || count_lines(&tree, BLOCKS * BLOCK, |range| sampler.range(range), |_| {});
         jobs.add(move || pool.install(blocks));
@@ -77,15 +83,13 @@ fn rows(scene: &Scene, stop: &str, table: &mut Table) {
         "**soup of 100,000 triangles, `{stop}`: {nodes} nodes, {per_line:.0} visits a line**"
     );
     table.row(&[heading, String::new(), String::new()]);
-    let made = |cores| format!("lines made and counted by streams, cores: {cores}");
-    let ways = [
-        ("plain loop, hits of every node".to_owned(), 1),
-        ("plain loop, nothing counted".to_owned(), 1),
-        ("line streams, hits of every node".to_owned(), 1),
-        (made(1), BLOCKS),
-        (made(cores), BLOCKS),
-    ];
-    for ((what, blocks), passed) in ways.into_iter().zip(&seconds) {
+    for cores in [1, cores] {
+        names.push((
+            format!("lines made and counted by streams, cores: {cores}"),
+            BLOCKS,
+        ));
+    }
+    for ((what, blocks), passed) in names.into_iter().zip(&seconds) {
         // Blocks of so many lines are alike to a percent.
         let blocks_per_s = blocks as f64 / passed;
         let rate = 1e-6 * blocks_per_s * counts.visits() as f64;

@@ -1,7 +1,7 @@
 //! sahlab beside other ray tracing libraries: one mesh, one set of rays, one way to ask, and the clock.
 //!
 //! Every contestant gets the same numbers in single precision, builds from the same flat list of corners, and answers
-//! the same rays, one after the other, on one thread. `benches/peers.rs` says how to run it.
+//! the same rays on one thread. `benches/peers.rs` says how to run it.
 
 mod bvh;
 mod embree;
@@ -92,6 +92,11 @@ pub trait Tracer {
 
     /// Whether each ray hits anything.
     fn any(&mut self, rays: &[Ray], hits: &mut [bool]);
+
+    /// Whether it gains from many rays at once: it gets the whole set, not a sample of it in chunks.
+    fn takes_all(&self) -> bool {
+        false
+    }
 }
 
 /// All contestants in the order of tables: our own ways first, then Embree where it is found, then crates.

@@ -129,29 +129,52 @@ fn all(peers: &[Box<dyn Peer>]) -> impl Iterator<Item = &dyn Peer> {
 /// Rays of which the least time is taken one by one.
 const CHUNK: usize = 4096;
 
+/// One chunk of so many is traced by those who take rays one after the other: their rates do not depend on how many there
+/// are.
+const EVERY: usize = 16;
+
 /// Each chunk's seconds. The first rays are traced before the clock starts, as another peer's data filled the caches.
-fn chunks<T: Clone>(rays: &[Ray], none: T, mut trace: impl FnMut(&[Ray], &mut [T])) -> Vec<f64> {
-    let mut hits = vec![none; CHUNK];
+fn chunks<T: Clone>(
+    rays: &[Ray],
+    takes_all: bool,
+    none: T,
+    mut trace: impl FnMut(&[Ray], &mut [T]),
+) -> Vec<f64> {
+    let (size, every) = if takes_all {
+        (rays.len(), 1)
+    } else {
+        (CHUNK, EVERY)
+    };
+    let mut hits = vec![none; size];
     for chunk in rays.chunks(CHUNK).take(2) {
         trace(chunk, &mut hits[..chunk.len()]);
     }
-    let time = |chunk: &[Ray]| seconds(|| trace(chunk, &mut hits[..chunk.len()]));
-    rays.chunks(CHUNK).flat_map(time).collect()
+    let time = |chunk: &[Ray]| {
+        let traced = seconds(|| trace(chunk, &mut hits[..chunk.len()]));
+        traced.into_iter().map(|s| s * every as f64)
+    };
+    rays.chunks(size).step_by(every).flat_map(time).collect()
 }
 
 /// The same rays through everything that has been built: nearest hits, and any hits.
+///
+/// # Panics
+/// If the rays are no multiple of what is traced of them.
 pub fn traces<'a>(built: &'a Built, scene: &str, rays: &'a [Ray]) -> [Plan<'a>; 2] {
+    assert_eq!(rays.len() % (CHUNK * EVERY), 0, "whole chunks");
     let nearest = built.iter().map(|(name, tracer)| -> Job<'a> {
         let nearest = || {
             let mut tracer = tracer.borrow_mut();
-            chunks(rays, 0.0, |rays, hits| tracer.nearest(rays, hits))
+            let all = tracer.takes_all();
+            chunks(rays, all, 0.0, |rays, hits| tracer.nearest(rays, hits))
         };
         (name.clone(), Box::new(nearest))
     });
     let any = built.iter().map(|(name, tracer)| -> Job<'a> {
         let any = || {
             let mut tracer = tracer.borrow_mut();
-            chunks(rays, false, |rays, hits| tracer.any(rays, hits))
+            let all = tracer.takes_all();
+            chunks(rays, all, false, |rays, hits| tracer.any(rays, hits))
         };
         (name.clone(), Box::new(any))
     });
@@ -182,10 +205,17 @@ pub struct Disagreement {
     pub any: usize,
 }
 
-/// Compare everybody's hits with the first one's: t may differ by 1e-4 of itself and 1e-6 of the world's diagonal.
+/// Compare everybody's hits of the rays that all are timed with with the first one's: t may differ by 1e-4 of itself and 1e-6 of the world's diagonal.
 pub fn compare(built: &Built, scene: &str, rays: &[Ray], mesh: &Mesh) -> Vec<Disagreement> {
     let slack = 1e-6 * (mesh.world.hi - mesh.world.lo).length() as f32;
     let same = |a: f32, b: f32| a == b || (a - b).abs() <= 1e-4 * a.abs() + slack;
+    let rays: Vec<Ray> = rays
+        .chunks(CHUNK)
+        .step_by(EVERY)
+        .flatten()
+        .copied()
+        .collect();
+    let rays = &rays[..];
     let mut answers = built.iter().map(|(name, tracer)| {
         let mut tracer = tracer.borrow_mut();
         let mut nearest = vec![0.0; rays.len()];
