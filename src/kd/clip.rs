@@ -33,11 +33,23 @@ impl<'a> Clipping<'a> {
         }
     }
 
-    /// Cut the objects that go to both sides of the plane `x[axis] = s`: tell the sides where each has a part, give it its
-    /// left part's bounds and keep the right part's for later.
+    /// What a builder of a subtree needs.
+    pub fn for_subtree(&self) -> Self {
+        Self {
+            objects: self.objects,
+            slack: self.slack,
+            clipper: Clipper::default(),
+            cut: Vec::new(),
+            waiting: Vec::new(),
+        }
+    }
+
+    /// Cut the objects (known to the scene by these names) that go to both sides of the plane `x[axis] = s`: tell the sides
+    /// where each has a part, give it its left part's bounds and keep the right part's for later.
     pub fn cut(
         &mut self,
         objects: &[u32],
+        names: &[u32],
         sides: &mut [u8],
         bounds: &mut [Aabb],
         (axis, s): (Axis, f64),
@@ -52,7 +64,7 @@ impl<'a> Clipping<'a> {
             let parts = [left, right].map(|region| {
                 let clipper = &mut self.clipper;
                 self.objects
-                    .clipped_bounds(object, &region, self.slack, clipper)
+                    .clipped_bounds(names[i], &region, self.slack, clipper)
             });
             debug_assert!(parts.iter().any(Option::is_some), "object {object} lost");
             sides[i] = u8::from(parts[0].is_some()) * LEFT + u8::from(parts[1].is_some()) * RIGHT;

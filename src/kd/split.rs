@@ -26,10 +26,15 @@ impl Split {
         let left = object.lo[self.axis] < self.position;
         let right = object.hi[self.axis] > self.position;
         match (left, right) {
-            (false, false) if self.planar_left => LEFT,
-            (false, false) => RIGHT,
+            (false, false) => self.planar_side(),
             _ => u8::from(left) * LEFT + u8::from(right) * RIGHT,
         }
+    }
+
+    /// The side that an object lying in the plane goes to.
+    #[inline]
+    pub fn planar_side(&self) -> u8 {
+        if self.planar_left { LEFT } else { RIGHT }
     }
 }
 
@@ -67,6 +72,27 @@ impl<'a> Coster<'a> {
         }
     }
 
+    /// The node's own faces.
+    pub fn faces(&self) -> (f64, f64) {
+        (self.lo, self.hi)
+    }
+
+    /// Whether more objects on a side never make a plane cheaper, not by a rounding either: costs and areas are numbers that
+    /// are not negative, and area is not lost to overflow or underflow.
+    pub fn is_monotone(&self) -> bool {
+        let CostModel { c_k, c_b, c_t } = *self.cost;
+        let sound = |x: f64| x >= 0.0 && x.is_finite();
+        [c_k, c_b, c_t].into_iter().all(sound) && sound(self.scale) && self.scale > 0.0
+    }
+
+    /// The one-level cost of the plane at s with so many objects on its sides.
+    #[inline(always)]
+    pub fn cost(&self, s: f64, left: f64, right: f64) -> f64 {
+        let p_left = self.scale * (self.cut + (s - self.lo) * self.girth);
+        let p_right = self.scale * (self.cut + (self.hi - s) * self.girth);
+        self.cost.split(p_left, left, p_right, right)
+    }
+
     /// Whether a plane here parts the node: one in a face does not.
     #[inline]
     pub fn is_inside(&self, s: f64) -> bool {
@@ -96,11 +122,9 @@ impl<'a> Coster<'a> {
     /// The split at s with `planar` objects on its cheaper side (left on a tie), or `None` if it is no candidate.
     #[inline]
     pub fn split(&self, s: f64, left: usize, planar: usize, right: usize) -> Option<Split> {
-        let p_left = self.scale * (self.cut + (s - self.lo) * self.girth);
-        let p_right = self.scale * (self.cut + (self.hi - s) * self.girth);
         let with = |l: usize, r: usize| {
             let useless = l == self.n && r == self.n && !self.keep_useless;
-            (!useless).then(|| self.cost.split(p_left, l as f64, p_right, r as f64))
+            (!useless).then(|| self.cost(s, l as f64, r as f64))
         };
         let on_left = with(left + planar, right);
         let on_right = if planar > 0 {

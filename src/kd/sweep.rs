@@ -4,61 +4,15 @@
 //! there); they are sorted once, and their order survives every split. A node's list holds the events inside or on its
 //! box; objects whose start or end lies outside are known from the object count.
 
-use std::cmp::Ordering;
-
 use crate::geom::{Aabb, Axis};
 
+use super::events::{Event, EventKind, unsorted_events};
 use super::split::{Coster, Split};
-
-/// What happens to an object at a position. At equal positions ends come before planars before starts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum EventKind {
-    End,
-    Planar,
-    Start,
-}
-
-/// A bound of an object on one axis.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Event {
-    pub position: f64,
-    pub object: u32,
-    pub kind: EventKind,
-}
-
-impl Event {
-    /// The total order of a list: by position, then kind, then object.
-    pub fn order(&self, other: &Self) -> Ordering {
-        self.position
-            .total_cmp(&other.position)
-            .then(self.kind.cmp(&other.kind))
-            .then(self.object.cmp(&other.object))
-    }
-}
-
-/// Append the events of an object with box `b` on one axis.
-pub(super) fn push_events(events: &mut Vec<Event>, object: u32, b: &Aabb, axis: Axis) {
-    // Adding +0 turns -0 into +0, so that equal positions are equal to `total_cmp` too.
-    let (lo, hi) = (b.lo[axis] + 0.0, b.hi[axis] + 0.0);
-    let event = |position, kind| Event {
-        position,
-        object,
-        kind,
-    };
-    if lo == hi {
-        events.push(event(lo, EventKind::Planar));
-    } else {
-        events.extend([event(lo, EventKind::Start), event(hi, EventKind::End)]);
-    }
-}
 
 /// All events of one axis, in total order.
 pub(super) fn sorted_events(bounds: &[Aabb], axis: Axis) -> Vec<Event> {
-    let mut events = Vec::with_capacity(2 * bounds.len());
-    for (object, b) in bounds.iter().enumerate() {
-        push_events(&mut events, object as u32, b, axis);
-    }
-    events.sort_unstable_by(Event::order);
+    let mut events = unsorted_events(bounds, axis);
+    events.sort_unstable();
     events
 }
 
@@ -79,11 +33,62 @@ impl Sweep<'_> {
         window: Option<(f64, f64)>,
         extra: &[f64],
     ) -> Option<Split> {
+        let (lo, hi) = coster.faces();
+        let all = window.is_some_and(|(from, to)| from <= lo && hi <= to);
+        let flat = self.events.iter().fold(false, |any, e| any | e.is_planar());
+        if all && extra.is_empty() && !flat && coster.is_monotone() {
+            return self.cheapest_bound(coster);
+        }
         let mut best = None;
         self.each(window, extra, |s, left, planar, right| {
             coster.offer(&mut best, s, left, planar, right);
         });
         best
+    }
+
+    /// The cheapest object bound strictly inside the node, of equals the lowest, where no object is flat: each event is
+    /// looked at as if no other stood where it does.
+    ///
+    /// Of the events at one position, the last end, or the first start if there is none, sees the counts of the plane there.
+    /// All others see too many objects on a side, and none costs less. So the least cost is that of the plane where it is
+    /// found, whose counts are then told from its neighbours.
+    fn cheapest_bound(&self, coster: &Coster) -> Option<Split> {
+        let (lo, hi) = coster.faces();
+        let on_lo = self.events.iter().take_while(|e| e.position() <= lo);
+        let from = on_lo.count();
+        let on_hi = self.events[from..].iter().rev();
+        let to = self.events.len() - on_hi.take_while(|e| e.position() >= hi).count();
+        let inside = &self.events[from..to];
+        let below = starting(&self.events[..from]);
+
+        // Before the first event, objects that start below the node are on the left, all are on the right.
+        let mut least = Least {
+            left: (self.n - starting(self.events) + below) as i32,
+            right: (self.n - (from - below)) as i32,
+            cost: f64::INFINITY,
+            at: 0,
+            counts: [0; 2],
+        };
+        least.counts = [least.left, least.right];
+        let (blocks, rest) = inside.as_chunks::<BLOCK>();
+        let mut at = 0;
+        for block in blocks {
+            least.look_at(coster, block, at);
+            at += BLOCK;
+        }
+        for event in rest.as_chunks::<1>().0 {
+            least.look_at(coster, event, at);
+            at += 1;
+        }
+
+        let event = inside.get(least.at)?;
+        let there = |e: &&Event| e.position() == event.position();
+        let earlier = inside[..least.at].iter().rev().take_while(there);
+        let later = inside[least.at + 1..].iter().take_while(there);
+        let [left, right] = least.counts.map(|count| count as usize);
+        let left = left - earlier.filter(|e| e.starts()).count();
+        let right = right - later.filter(|e| !e.starts()).count();
+        coster.split(event.position(), left, 0, right)
     }
 
     /// Offer each object bound inside `window` and each position of `extra` (ascending), with the number of objects that
@@ -98,17 +103,12 @@ impl Sweep<'_> {
         let window = window.unwrap_or((f64::INFINITY, f64::NEG_INFINITY));
         let in_window = |s: f64| window.0 <= s && s <= window.1;
         // Left of the first event: objects that start below the node are on the left, all are on the right.
-        let begun = self
-            .events
-            .iter()
-            .filter(|e| e.kind != EventKind::End)
-            .count();
-        let mut left = self.n - begun;
+        let mut left = self.n - starting(self.events);
         let mut right = self.n;
         let mut extra = extra.iter().copied().peekable();
         let mut rest = self.events;
         while let Some(first) = rest.first() {
-            let s = first.position;
+            let s = first.position();
             while let Some(x) = extra.next_if(|&x| x < s) {
                 offer(x, left, 0, right);
             }
@@ -116,7 +116,7 @@ impl Sweep<'_> {
             let run = |events: &[Event], kind| {
                 events
                     .iter()
-                    .take_while(|e| e.position == s && e.kind == kind)
+                    .take_while(|e| e.position() == s && e.kind() == kind)
                     .count()
             };
             let ends = run(rest, EventKind::End);
@@ -135,3 +135,57 @@ impl Sweep<'_> {
         }
     }
 }
+
+/// Events whose costs are computed together: without a branch, so that a compiler can use vectors.
+const BLOCK: usize = 8;
+
+/// A sweep on its way, and the least cost it has seen.
+struct Least {
+    /// Objects on the left of the next event's position, and on its right or ending there.
+    left: i32,
+    right: i32,
+    cost: f64,
+    /// Where, by number of the event.
+    at: usize,
+    /// Objects on the left and right there.
+    counts: [i32; 2],
+}
+
+impl Least {
+    /// Pass these events, of which the first has number `first`.
+    #[inline(always)]
+    fn look_at<const N: usize>(&mut self, coster: &Coster, events: &[Event; N], first: usize) {
+        let (mut left, mut right, mut costs) = ([0; N], [0; N], [0.0; N]);
+        for i in 0..N {
+            let starts = i32::from(events[i].starts());
+            self.right -= 1 - starts;
+            (left[i], right[i]) = (self.left, self.right);
+            self.left += starts;
+        }
+        for i in 0..N {
+            let counts = [left[i], right[i]].map(f64::from);
+            costs[i] = coster.cost(events[i].position(), counts[0], counts[1]);
+        }
+        if costs
+            .iter()
+            .fold(false, |any, &cost| any | (cost < self.cost))
+        {
+            for i in 0..N {
+                if costs[i] < self.cost {
+                    self.cost = costs[i];
+                    self.at = first + i;
+                    self.counts = [left[i], right[i]];
+                }
+            }
+        }
+    }
+}
+
+/// How many of these events begin an object (and, if planar, end it).
+#[inline]
+fn starting(events: &[Event]) -> usize {
+    events.iter().filter(|e| e.kind() != EventKind::End).count()
+}
+
+#[cfg(test)]
+mod tests;

@@ -18,7 +18,7 @@ use crate::geom::Cast;
 use crate::kd::{Ask, NoProbe, Rules, Stack, Tree};
 use crate::scene::Scene;
 
-use super::hits::cell::{CellPlan, build_tree};
+use super::hits::cell::{CellPlan, build_tree, on_one_thread};
 use super::plan::{Wrong, wrong_unless};
 use super::records::PassTiming;
 use super::resume::Extent;
@@ -326,21 +326,23 @@ impl Pass<'_, '_> {
     }
 }
 
-/// Time the building of every tree, on this thread, in rounds of a fresh random order. Gives rows without the name of their
+/// Time the building of every tree, on one thread, in rounds of a fresh random order. Gives rows without the name of their
 /// cell.
 pub fn build_times(scene: &Scene, rules: &[Rules], timing: Timing, seed: u64) -> Vec<PassTiming> {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut order: Vec<_> = (0..rules.len()).collect();
     let mut seconds = vec![Vec::new(); rules.len()];
-    for _ in 0..timing.builds {
-        order.shuffle(&mut random);
-        for &i in &order {
-            let started = Instant::now();
-            let tree = build_tree(scene, &rules[i]);
-            seconds[i].push(started.elapsed().as_secs_f64());
-            drop(tree);
+    on_one_thread(|| {
+        for _ in 0..timing.builds {
+            order.shuffle(&mut random);
+            for &i in &order {
+                let started = Instant::now();
+                let tree = build_tree(scene, &rules[i]);
+                seconds[i].push(started.elapsed().as_secs_f64());
+                drop(tree);
+            }
         }
-    }
+    });
     let row = |seconds: &Vec<f64>| build_row(seconds, timing);
     seconds.iter().map(row).collect()
 }

@@ -1,10 +1,14 @@
-//! What counts without events finds the planes that the sweep finds, bit for bit.
+//! What counts without events finds the planes that the sweep finds, bit for bit; so does what counts naively, and so do
+//! many threads.
 
 use glam::DVec3;
 
 use super::*;
 use crate::geom::Triangle;
 use crate::kd::NodeKind;
+
+mod naive;
+mod threads;
 
 /// Numbers that need not be random, only many and various (SplitMix64).
 struct Numbers(u64);
@@ -50,6 +54,11 @@ impl Numbers {
     }
 }
 
+/// The smallest box around all.
+fn world(bounds: &[Aabb]) -> Aabb {
+    bounds.iter().fold(Aabb::EMPTY, |w, b| w.union(*b))
+}
+
 #[test]
 fn counting_at_planes_gives_the_trees_of_the_sweep() {
     let stops = ["objects:1:16", "automatic", "cost-gain", "depth:7"];
@@ -62,7 +71,7 @@ fn counting_at_planes_gives_the_trees_of_the_sweep() {
         let gridded = seed % 3 != 0;
         let objects = Numbers(seed).triangles(150, gridded);
         let bounds = objects.bounds();
-        let world = bounds.iter().fold(Aabb::EMPTY, |w, b| w.union(*b));
+        let world = world(&bounds);
         for &strategy in strategies.iter().filter(|s| !s.sweeps()) {
             for clipped in [false, true] {
                 let rules = Rules {
@@ -73,7 +82,7 @@ fn counting_at_planes_gives_the_trees_of_the_sweep() {
                 };
                 let tree = |sweeps| {
                     let clipping = clipped.then(|| Clipping::new(&objects, &world));
-                    build_over(&bounds, world, &rules, clipping, sweeps)
+                    build_over(&bounds, world, &rules, clipping, sweeps, usize::MAX)
                 };
                 let (counted, swept) = (tree(false), tree(true));
                 // As text too, which tells -0 from +0.

@@ -126,14 +126,16 @@ pub fn measure_with(
     Ok(result)
 }
 
-/// Build a tree, with the seconds it took, and prove its invariants.
+/// Build a tree on one thread, with the seconds it took, and prove its invariants.
 ///
 /// # Errors
 /// If the tree fails its audit.
 pub fn plant(scene: &Scene, rules: &Rules) -> Result<(Tree, f64), String> {
-    let started = Instant::now();
-    let tree = build_tree(scene, rules);
-    let build_s = started.elapsed().as_secs_f64();
+    let (tree, build_s) = on_one_thread(|| {
+        let started = Instant::now();
+        let tree = build_tree(scene, rules);
+        (tree, started.elapsed().as_secs_f64())
+    });
     let audited = if rules.clipped {
         audit_clipped(&tree, &scene.objects, &scene.bounds)
     } else {
@@ -143,7 +145,13 @@ pub fn plant(scene: &Scene, rules: &Rules) -> Result<(Tree, f64), String> {
     Ok((tree, build_s))
 }
 
-/// Build a scene's tree.
+/// The result of some work for which the pool has one thread, as trees are built by all that it has.
+pub fn on_one_thread<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build();
+    pool.expect("one more thread can be started").install(work)
+}
+
+/// Build a scene's tree, on all threads of the current pool.
 pub fn build_tree(scene: &Scene, rules: &Rules) -> Tree {
     build_objects(&scene.objects, &scene.bounds, scene.world, rules)
 }
