@@ -40,6 +40,11 @@ impl Event {
         Self { position, tag }
     }
 
+    /// The start of an object that no one asks for.
+    pub fn start_at(position: f64) -> Self {
+        Self::new(position, EventKind::Start, 0)
+    }
+
     #[inline(always)]
     pub fn position(self) -> f64 {
         self.position

@@ -35,9 +35,16 @@ impl Sweep<'_> {
     ) -> Option<Split> {
         let (lo, hi) = coster.faces();
         let all = window.is_some_and(|(from, to)| from <= lo && hi <= to);
-        let flat = self.events.iter().fold(false, |any, e| any | e.is_planar());
-        if all && extra.is_empty() && !flat && coster.is_monotone() {
-            return self.cheapest_bound(coster);
+        if all && extra.is_empty() && coster.is_monotone() {
+            let (starts, planars) = self.events.iter().fold((0, 0), |(starts, planars), e| {
+                (
+                    starts + usize::from(e.starts()),
+                    planars + usize::from(e.is_planar()),
+                )
+            });
+            if planars == 0 {
+                return self.cheapest_bound(coster, starts);
+            }
         }
         let mut best = None;
         self.each(window, extra, |s, left, planar, right| {
@@ -46,13 +53,13 @@ impl Sweep<'_> {
         best
     }
 
-    /// The cheapest object bound strictly inside the node, of equals the lowest, where no object is flat: each event is
-    /// looked at as if no other stood where it does.
+    /// The cheapest object bound strictly inside the node, of equals the lowest, where no object is flat and `starts` of the
+    /// events are starts: each event is looked at as if no other stood where it does.
     ///
     /// Of the events at one position, the last end, or the first start if there is none, sees the counts of the plane there.
     /// All others see too many objects on a side, and none costs less. So the least cost is that of the plane where it is
     /// found, whose counts are then told from its neighbours.
-    fn cheapest_bound(&self, coster: &Coster) -> Option<Split> {
+    fn cheapest_bound(&self, coster: &Coster, starts: usize) -> Option<Split> {
         let (lo, hi) = coster.faces();
         let on_lo = self.events.iter().take_while(|e| e.position() <= lo);
         let from = on_lo.count();
@@ -63,22 +70,22 @@ impl Sweep<'_> {
 
         // Before the first event, objects that start below the node are on the left, all are on the right.
         let mut least = Least {
-            left: (self.n - starting(self.events) + below) as i32,
+            left: (self.n - starts + below) as i32,
             right: (self.n - (from - below)) as i32,
             cost: f64::INFINITY,
             at: 0,
             counts: [0; 2],
         };
         least.counts = [least.left, least.right];
-        let (blocks, rest) = inside.as_chunks::<BLOCK>();
-        let mut at = 0;
-        for block in blocks {
-            least.look_at(coster, block, at);
-            at += BLOCK;
+        let (blocks, rest) = inside.as_chunks();
+        for (i, block) in blocks.iter().enumerate() {
+            least.look_at(coster, block, i * BLOCK);
         }
-        for event in rest.as_chunks::<1>().0 {
-            least.look_at(coster, event, at);
-            at += 1;
+        if let Some(last) = rest.last() {
+            // More starts where the last event is: they see no fewer objects on a side than it does.
+            let mut block = [Event::start_at(last.position()); BLOCK];
+            block[..rest.len()].copy_from_slice(rest);
+            least.look_at(coster, &block, blocks.len() * BLOCK);
         }
 
         let event = inside.get(least.at)?;
@@ -154,15 +161,15 @@ struct Least {
 impl Least {
     /// Pass these events, of which the first has number `first`.
     #[inline(always)]
-    fn look_at<const N: usize>(&mut self, coster: &Coster, events: &[Event; N], first: usize) {
-        let (mut left, mut right, mut costs) = ([0; N], [0; N], [0.0; N]);
-        for i in 0..N {
+    fn look_at(&mut self, coster: &Coster, events: &[Event; BLOCK], first: usize) {
+        let (mut left, mut right, mut costs) = ([0; BLOCK], [0; BLOCK], [0.0; BLOCK]);
+        for i in 0..BLOCK {
             let starts = i32::from(events[i].starts());
             self.right -= 1 - starts;
             (left[i], right[i]) = (self.left, self.right);
             self.left += starts;
         }
-        for i in 0..N {
+        for i in 0..BLOCK {
             let counts = [left[i], right[i]].map(f64::from);
             costs[i] = coster.cost(events[i].position(), counts[0], counts[1]);
         }
@@ -170,7 +177,7 @@ impl Least {
             .iter()
             .fold(false, |any, &cost| any | (cost < self.cost))
         {
-            for i in 0..N {
+            for i in 0..BLOCK {
                 if costs[i] < self.cost {
                     self.cost = costs[i];
                     self.at = first + i;

@@ -41,7 +41,7 @@ proptest! {
             sweep.each(Some((from, to)), &[], |s, left, planar, right| {
                 coster.offer(&mut first, s, left, planar, right);
             });
-            prop_assert_eq!(sweep.cheapest_bound(&coster), first);
+            prop_assert_eq!(sweep.cheapest_bound(&coster, starting(&events)), first);
         }
     }
 }
