@@ -79,7 +79,8 @@ mod tests {
     #[test]
     fn a_list_is_spread_above_what_lies_below() {
         // Multiples of 2 go left, of 3 right.
-        let side = |x: &u32| u8::from(x % 2 == 0) * LEFT + u8::from(x % 3 == 0) * RIGHT;
+        let side =
+            |x: &u32| u8::from(x.is_multiple_of(2)) * LEFT + u8::from(x.is_multiple_of(3)) * RIGHT;
         let mut arena = vec![7, 7, 1, 2, 3, 4, 6, 9, 12];
         assert_eq!(spread(&mut arena, 2, 4, 0, side), (6, 6));
         assert_eq!(arena, [7, 7, 3, 6, 9, 12, 2, 4, 6, 12]);

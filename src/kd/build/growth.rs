@@ -60,16 +60,16 @@ impl Growth {
             // The child's root goes to its place beside its sibling, all else on top.
             let nodes = whole.nodes.len() - 1;
             let references = whole.references.len();
-            let moved = |node: &Node| match node.kind() {
+            let mut moved = child.nodes.iter().map(|node| match node.kind() {
                 NodeKind::Inner { axis, split, left } => {
                     Node::inner(axis, split, number(nodes + left as usize, "nodes"))
                 }
                 NodeKind::Leaf { first, count } => {
                     Node::leaf(number(references + first as usize, "references"), count)
                 }
-            };
-            whole.nodes[left + side] = moved(&child.nodes[0]);
-            whole.nodes.extend(child.nodes[1..].iter().map(moved));
+            });
+            whole.nodes[left + side] = moved.next().expect("a subtree has a root");
+            whole.nodes.extend(moved);
             whole.references.extend(child.references);
             whole.depth = whole.depth.max(child.depth);
         }
