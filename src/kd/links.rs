@@ -14,6 +14,7 @@ use super::{NodeKind, Planes};
 
 pub use faces::{FaceTrees, FacesLinked};
 pub use walk::Linked;
+pub(super) use walk::fall_back;
 
 /// A link that leads nowhere.
 const OUTSIDE: u32 = u32::MAX;
@@ -216,3 +217,6 @@ impl<V: Vector> Links<V> {
         Linked::new(tree, self)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -7,7 +7,8 @@
 
 use crate::geom::{Axis, Line, Real, Span, Vector, slack};
 
-use super::{Mode, NodeKind, Planes, Probe, Stack, Turn, Walk, traverse};
+use super::links::fall_back;
+use super::{Mode, NodeKind, Planes, Probe, Stack, Turn, Walk};
 
 /// A tree, walked with neither stack nor links.
 ///
@@ -145,7 +146,6 @@ impl<T: Planes> Walk for Restart<'_, T> {
             crossing = plane;
             probe.link();
         }
-        probe.fall_back();
-        traverse::<M, T, P>(tree, line, rest, stack, probe, leaf);
+        fall_back::<M, T, P>(tree, line, rest, stack, probe, leaf);
     }
 }

@@ -71,4 +71,4 @@ macro_rules! fuzzed {
     };
 }
 
-fuzzed!(obj ply stl off nff toml csv npy tree);
+fuzzed!(obj ply stl off nff toml csv npy tree bits);

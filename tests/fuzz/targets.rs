@@ -12,9 +12,16 @@ use sahlab::scene::{AREAS, Scene};
 use sahlab::study::plan::Overrides;
 use sahlab::study::{Plan, PlanError};
 
+#[path = "bits.rs"]
+mod bits;
 #[path = "tree.rs"]
 mod tree;
+#[path = "../links/watch.rs"]
+mod watch;
+#[path = "ways.rs"]
+mod ways;
 
+pub use bits::bits;
 pub use tree::tree;
 
 /// Wavefront OBJ.

@@ -15,6 +15,8 @@ use sahlab::kd::{
 use sahlab::rays::file::LENGTHS;
 use sahlab::scene::Scene;
 
+use super::ways::ways;
+
 /// Objects read from the bytes at most.
 const MOST: usize = 24;
 
@@ -186,12 +188,13 @@ pub fn tree(bytes: &[u8]) {
         prediction.p.iter().all(|p| (0.0..=above_one).contains(p)),
         "{prediction:?}"
     );
-    for _ in 0..4 {
-        if let Some(ray) = choices.ray(&scene) {
-            counts(&tree, &ray);
-            hits(&tree, &scene, &ray, rules.clipped);
-        }
+    let rays = [(); 4].map(|()| choices.ray(&scene));
+    let rays: Vec<Ray> = rays.into_iter().flatten().collect();
+    for ray in &rays {
+        counts(&tree, ray);
+        hits(&tree, &scene, ray, rules.clipped);
     }
+    ways(&tree, &scene, &rays);
 }
 
 /// Counting visits the nodes whose boxes pass the slab test and no other, alone and in streams; tracing none fewer.

@@ -12,7 +12,8 @@
 //! been below the ancestor P that owns the exit's plane, its far child would have begun behind P's near side and not been put on the stack.
 //! P's far child is on top, its span begins at `exit - s`, and no other span begins earlier: if that is beyond the limit, all are, and
 //! both ways end. Else the stack's next leaf is the first one below this child, where from an inner node with plane u it goes into the far
-//! child if `u + s < exit - s`, else into the near one. Descending does just that. Where the link has already passed a node, its
+//! child if `u + s < exit - s`, else into the near one. Descending does just that, and from the root, with the t that the root
+//! is entered at, in the first place. Where the link has already passed a node, its
 //! plane is parallel to the face and lies behind it (u >= exit: near), or it passes the face on one side: behind L's own face on its axis
 //! (u >= second: near), or before the one that L was entered through (u <= t: far, by (1)). So both go on in the same leaf, which is
 //! entered at `exit`. In a leaf entered within rounding of an edge, (1) or (2) fails.
@@ -190,6 +191,20 @@ pub(super) fn follow<M: Mode, T: Planes, P: Probe>(
             }
         };
     }
+    fall_back::<M, T, P>(tree, line, rest, stack, probe, leaf);
+}
+
+/// The rest of a walk that is not certain, kept out of the loop's way.
+#[cold]
+#[inline(never)]
+pub(in crate::kd) fn fall_back<M: Mode, T: Planes, P: Probe>(
+    tree: &T,
+    line: &Line<T::Vector>,
+    rest: Span<T::Real>,
+    stack: &mut Stack<T::Real>,
+    probe: &mut P,
+    leaf: impl FnMut(&[u32], &mut P) -> T::Real,
+) {
     probe.fall_back();
     traverse::<M, T, P>(tree, line, rest, stack, probe, leaf);
 }
