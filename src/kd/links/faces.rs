@@ -10,13 +10,13 @@ use super::{Faces, LEAF, Links, Target, beside, target};
 
 /// A plane that cuts a face.
 #[derive(Clone, Debug, PartialEq)]
-struct FaceNode<T> {
+pub(super) struct FaceNode<T> {
     split: T,
-    axis: u32,
+    pub(super) axis: u32,
     /// The tree's node that has this plane.
     node: u32,
     /// What is below and above: a leaf, or another plane.
-    children: [u32; 2],
+    pub(super) children: [u32; 2],
 }
 
 /// Links of which each leads, through a face tree if need be, to a leaf that touches the face.
@@ -26,8 +26,8 @@ struct FaceNode<T> {
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceTrees<V: Vector> {
     /// The tree's links, those to covering nodes replaced by those to face trees.
-    links: Links<V>,
-    nodes: Vec<FaceNode<V::Real>>,
+    pub(super) links: Links<V>,
+    pub(super) nodes: Vec<FaceNode<V::Real>>,
     /// Planes of all face trees, those of equal parts each time.
     unshared: usize,
 }
