@@ -67,7 +67,6 @@ where
 pub struct Streams {
     /// Origin and reciprocal direction of the octant's lines, by axis.
     lines: [Vec<[f64; 2]>; 3],
-    order: Order,
     /// Lists on their way down.
     lists: Lists<DVec3>,
     stack: Stack,
@@ -84,7 +83,6 @@ impl Streams {
     pub fn with(lanes: Lanes) -> Self {
         Self {
             lines: Default::default(),
-            order: Order::default(),
             lists: Lists::new(lanes),
             stack: Stack::default(),
         }
@@ -93,16 +91,15 @@ impl Streams {
     /// Add the counts of `lines`.
     pub fn count(&mut self, tree: &Tree, lines: &[Line], counts: &mut Counts) {
         counts.lines += lines.len() as u64;
-        self.order.clear();
+        let mut order = Order::new(&tree.world);
         for (number, line) in lines.iter().enumerate() {
             // A line parallel to a coordinate plane has no near child there: those few go down one by one.
             if line.is_axis_parallel() {
                 traverse_line(tree, line, Span::FULL, &mut self.stack, &mut *counts);
             } else if let Some(span) = tree.world.clip(line, Span::FULL) {
-                self.order.add(number, line, &tree.world, span);
+                order.add(number, line, span);
             }
         }
-        let mut order = std::mem::take(&mut self.order);
         for (octant, numbers) in order.octants() {
             self.lines.iter_mut().for_each(Vec::clear);
             self.lists.clear();
@@ -119,7 +116,6 @@ impl Streams {
             let n = self.lines[0].len();
             self.descend(tree, 0, octant, 0, n, counts);
         }
-        self.order = order;
     }
 
     /// Count the list `start..start + n` at `node` and below it; the list's place is free afterwards.
