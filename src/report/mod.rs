@@ -44,6 +44,7 @@ mod termination;
 mod tests;
 mod text;
 pub mod trace;
+mod traversal;
 
 use std::path::{Path, PathBuf};
 use std::{fs, io};
@@ -62,6 +63,7 @@ pub use stability::Stability;
 pub use strategies::Strategies;
 pub use table::{Align, Cell, Column, Table};
 pub use termination::Termination;
+pub use traversal::Traversal;
 
 /// Resolution of the PNG files, in dots per inch.
 const DOTS_PER_INCH: f64 = 216.0;
@@ -158,6 +160,7 @@ pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
         Content::Assumptions(rays) => rays.figures(&run.summary),
         Content::SpeedVsError(parts) => parts.figures(&run.summary),
         Content::Stability(cases) => cases.figures(&run.summary),
+        Content::Traversal(walks) => walks.figures(&run.summary),
     };
     let mut files = Vec::new();
     for (name, figure) in figures {
@@ -205,6 +208,7 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
         Content::Assumptions(rays) => (named(rays.tables(&run.summary)), Vec::new()),
         Content::SpeedVsError(parts) => (named(parts.tables(&run.summary)), Vec::new()),
         Content::Stability(cases) => (named(cases.tables(&run.summary)), Vec::new()),
+        Content::Traversal(walks) => (named(walks.tables(&run.summary)), walks.texts()),
     };
     let command = &run.summary.command;
     let mut files = Vec::new();

@@ -15,6 +15,7 @@ use super::split_cost::SplitCost;
 use super::stability::Stability;
 use super::strategies::Strategies;
 use super::termination::Termination;
+use super::traversal::Traversal;
 use crate::study::records::{SCHEMA, Summary, Verdict};
 
 /// What a finished run left behind.
@@ -47,6 +48,8 @@ pub enum Content {
     SpeedVsError(SpeedVsError),
     /// Kind `stability`.
     Stability(Stability),
+    /// Kind `traversal`.
+    Traversal(Traversal),
 }
 
 impl Run {
@@ -101,6 +104,7 @@ pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
         "assumptions" => Content::Assumptions(Assumptions::read(dir)?),
         "speed-vs-error" => Content::SpeedVsError(SpeedVsError::read(dir)?),
         "stability" => Content::Stability(Stability::read(dir)?),
+        "traversal" => Content::Traversal(Traversal::read(dir)?),
         other => {
             return Err(ReportError::Empty {
                 what: format!("{}: unknown kind of run '{other}'", path.display()),

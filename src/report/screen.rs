@@ -21,6 +21,7 @@ pub fn study(run: &Run) -> String {
         Content::Assumptions(rays) => answer(run, &rays.screen(WIDTH)),
         Content::SpeedVsError(parts) => answer(run, &parts.screen(WIDTH)),
         Content::Stability(cases) => answer(run, &cases.screen(WIDTH)),
+        Content::Traversal(walks) => answer(run, &walks.screen(WIDTH)),
     }
 }
 

@@ -2,6 +2,7 @@
 
 pub mod assumptions;
 pub mod choices;
+mod chunks;
 pub mod cost_vs_work;
 pub mod hits;
 pub mod identity;
@@ -21,6 +22,7 @@ pub mod store;
 pub mod strategies;
 pub mod timing;
 pub mod trace;
+pub mod traversal;
 pub mod watcher;
 pub mod work;
 
@@ -78,6 +80,7 @@ pub fn run(
         Kind::Assumptions(asked) => assumptions::run(plan, asked, scenes, store, watcher)?,
         Kind::SpeedVsError(asked) => speed_vs_error::run(plan, asked, scenes, store, watcher)?,
         Kind::Stability(asked) => stability::run(plan, asked, scenes, store, watcher)?,
+        Kind::Traversal(asked) => traversal::run(plan, asked, scenes, store, watcher)?,
     }
     // Last: what a stopped run leaves is still the record of the one before.
     if let Some(record) = &plan.record {
@@ -100,6 +103,7 @@ pub fn check_scenes(plan: &Plan, scenes: &[Scene]) -> Result<(), String> {
         }),
         Kind::CostVsWork(asked) => sets(&asked.rays),
         Kind::Assumptions(asked) => sets(&asked.rays),
+        Kind::Traversal(asked) => sets(&asked.rays),
         Kind::SpeedVsError(asked) => asked.check_scenes(scenes),
         Kind::SplitCost(_) | Kind::Stability(_) => Ok(()),
         Kind::Strategies(_) | Kind::Termination(_) => {
@@ -128,5 +132,6 @@ pub fn describe(plan: &Plan, scenes: &[Scene]) -> String {
         Kind::Assumptions(asked) => assumptions::describe(plan, asked, scenes),
         Kind::SpeedVsError(asked) => speed_vs_error::describe(plan, asked, scenes),
         Kind::Stability(asked) => stability::describe(plan, asked, scenes),
+        Kind::Traversal(asked) => traversal::describe(plan, asked, scenes),
     }
 }

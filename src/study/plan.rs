@@ -29,6 +29,7 @@ use super::speed_vs_error::SpeedVsError;
 use super::split_cost::SplitCost;
 use super::stability::Stability;
 use super::strategies::Strategies;
+use super::traversal::Traversal;
 use super::{LEVEL, LineRule, SCHEMA};
 
 use error::Fault;
@@ -80,11 +81,13 @@ pub enum Kind {
     SpeedVsError(SpeedVsError),
     /// Hard cases, and the exact oracle.
     Stability(Stability),
+    /// A stack, restarts and links: steps, seconds and memory.
+    Traversal(Traversal),
 }
 
 impl Kind {
     /// The names of all kinds.
-    pub const NAMES: [&str; 8] = [
+    pub const NAMES: [&str; 9] = [
         "hits-vs-area",
         "strategies",
         "termination",
@@ -93,6 +96,7 @@ impl Kind {
         "assumptions",
         "speed-vs-error",
         "stability",
+        "traversal",
     ];
 
     /// The name in files.
@@ -106,6 +110,7 @@ impl Kind {
             Self::Assumptions(_) => Self::NAMES[5],
             Self::SpeedVsError(_) => Self::NAMES[6],
             Self::Stability(_) => Self::NAMES[7],
+            Self::Traversal(_) => Self::NAMES[8],
         }
     }
 
@@ -113,7 +118,7 @@ impl Kind {
     pub fn counts_to_an_error(&self) -> bool {
         !matches!(
             self,
-            Self::SplitCost(_) | Self::SpeedVsError(_) | Self::Stability(_)
+            Self::SplitCost(_) | Self::SpeedVsError(_) | Self::Stability(_) | Self::Traversal(_)
         )
     }
 
@@ -126,6 +131,7 @@ impl Kind {
             Self::Assumptions(asked) => asked.check(scenes),
             Self::SpeedVsError(asked) => asked.check(scenes),
             Self::Stability(asked) => asked.check(scenes),
+            Self::Traversal(asked) => asked.check(),
         }
     }
 }
@@ -260,6 +266,7 @@ impl Plan {
             "assumptions" => Kind::Assumptions(asked(rest)?),
             "speed-vs-error" => Kind::SpeedVsError(asked(rest)?),
             "stability" => Kind::Stability(asked(rest)?),
+            "traversal" => Kind::Traversal(asked(rest)?),
             other => {
                 let message = format!(
                     "unknown kind '{other}', expected one of {}",
@@ -345,7 +352,8 @@ impl Plan {
             | Kind::CostVsWork(_)
             | Kind::Assumptions(_)
             | Kind::SpeedVsError(_)
-            | Kind::Stability(_) => {}
+            | Kind::Stability(_)
+            | Kind::Traversal(_) => {}
         }
     }
 
@@ -367,6 +375,10 @@ impl Plan {
             }
             Kind::SpeedVsError(asked) => asked.set_lines(lines)?,
             Kind::Stability(asked) => asked.set_lines(lines)?,
+            Kind::Traversal(asked) => {
+                asked.number = lines;
+                asked.check_number().map_err(|wrong| wrong.message)?;
+            }
         }
         Ok(())
     }
@@ -387,7 +399,10 @@ impl Plan {
                 asked.error = Some(error);
             }
             Kind::Assumptions(asked) => asked.error = Some(error),
-            Kind::SplitCost(_) | Kind::SpeedVsError(_) | Kind::Stability(_) => {
+            Kind::SplitCost(_)
+            | Kind::SpeedVsError(_)
+            | Kind::Stability(_)
+            | Kind::Traversal(_) => {
                 return Err(format!(
                     "no wanted error settles the number of lines of kind '{}'; give --lines",
                     self.kind.name()
@@ -422,7 +437,8 @@ impl Plan {
             Kind::HitsVsArea(_)
             | Kind::Assumptions(_)
             | Kind::CostVsWork(_)
-            | Kind::Stability(_) => {}
+            | Kind::Stability(_)
+            | Kind::Traversal(_) => {}
         }
     }
 }

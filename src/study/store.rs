@@ -204,6 +204,8 @@ mod tests {
             "random.csv",
             "ties.csv",
             "metamorphic.csv",
+            "traversal.csv",
+            "link-memory.csv",
             TIMINGS,
             "summary.json",
             EXPERIMENT,

@@ -6,8 +6,9 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 /// How well does the surface area heuristic predict what ray tracing through a kd-tree really costs?
 ///
-/// Without a command: the default study in six parts, about a minute. It writes data/ and plots/ of validate and of
-/// validate-strategies, -cost, -assumptions, -speed and -stability, and archives/validate.tar.gz, and ends with a summary.
+/// Without a command: the default study in seven parts, about a minute. It writes data/ and plots/ of validate and of
+/// validate-strategies, -cost, -assumptions, -speed, -stability and -traversal, and archives/validate.tar.gz, and ends with a
+/// summary.
 ///
 /// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run.
 #[derive(Parser)]

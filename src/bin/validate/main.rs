@@ -30,7 +30,7 @@ use args::{Cli, Command, Common, Listed};
 use output::{complain, note, print};
 
 /// Experiments that come with the program: name and text.
-const EXPERIMENTS: [(&str, &str); 14] = [
+const EXPERIMENTS: [(&str, &str); 16] = [
     (
         "validate",
         include_str!("../../../experiments/validate.toml"),
@@ -54,6 +54,10 @@ const EXPERIMENTS: [(&str, &str); 14] = [
     (
         "validate-stability",
         include_str!("../../../experiments/validate-stability.toml"),
+    ),
+    (
+        "validate-traversal",
+        include_str!("../../../experiments/validate-traversal.toml"),
     ),
     ("figure3", include_str!("../../../experiments/figure3.toml")),
     (
@@ -81,10 +85,14 @@ const EXPERIMENTS: [(&str, &str); 14] = [
         "stability",
         include_str!("../../../experiments/stability.toml"),
     ),
+    (
+        "traversal",
+        include_str!("../../../experiments/traversal.toml"),
+    ),
 ];
 
 /// So many of them, the first ones, are the default study.
-const DEFAULT: usize = 6;
+const DEFAULT: usize = 7;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();

@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::kd::{Rules, Tree, predict};
 use crate::scene::Scene;
+use crate::study::chunks::{RUN, spread};
 use crate::study::hits::cell::{CellPlan, compare, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::ray_sets::{Number, Rays, gather};
@@ -81,29 +82,11 @@ pub fn finished(
     cells.iter().map(one).collect()
 }
 
-/// Rays that follow each other in what is timed: so many of them share caches as in the whole set.
-const RUN: usize = 512;
-
-/// The chunks of a set that are timed: runs of rays in the middle of equal parts of the set, as many as the tree affords in
-/// which a ray takes the most work. The same in every tree of a scene.
+/// The chunks of a set that are timed: as many as the tree affords in which a ray takes the most work. The same in every tree of
+/// a scene.
 fn chunks(asked: &CostVsWork, rays: usize, most_work: f64) -> Vec<Range<usize>> {
-    let cut = |run: Range<usize>| {
-        let end = run.end;
-        run.step_by(CHUNK)
-            .map(move |start| start..(start + CHUNK).min(end))
-    };
     let affordable = (asked.timing.work as f64 / most_work.max(1.0)) as usize;
-    let wanted = (asked.timing.rays as usize).min(affordable).max(RUN);
-    if wanted >= rays {
-        return cut(0..rays).collect();
-    }
-    let all = rays / RUN;
-    let runs = (wanted / RUN).min(all);
-    let run = |number: usize| {
-        let start = (2 * number + 1) * all / (2 * runs) * RUN;
-        start..start + RUN
-    };
-    (0..runs).map(run).flat_map(cut).collect()
+    spread(rays, (asked.timing.rays as usize).min(affordable))
 }
 
 /// Count and time the trees of a scene.

@@ -12,6 +12,7 @@ mod split_cost;
 mod stability;
 mod strategies;
 mod trace;
+mod traversal;
 mod work;
 
 use serde::{Deserialize, Serialize};
@@ -32,6 +33,7 @@ pub use stability::{CaseRecord, MetamorphicRecord, RandomRecord, TieRecord};
 pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
 
 pub use trace::{HitRecord, TraceRecord};
+pub use traversal::{LinkRecord, TraversalRecord};
 pub use work::{StepRecord, StrategyChoiceRecord, TreeOrderRecord, WorkRecord};
 
 /// Version of the layout of `data/`.

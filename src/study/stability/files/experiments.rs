@@ -58,13 +58,13 @@ pub(super) fn cases() -> Vec<Case> {
         case("toml-unknown-kind", "kinds", || {
             told(
                 &GOOD.replace("split-cost", "spilt-cost"),
-                "x.toml:1:8: unknown kind 'spilt-cost', expected one of hits-vs-area, strategies, termination, split-cost, cost-vs-work, assumptions, speed-vs-error, stability",
+                "x.toml:1:8: unknown kind 'spilt-cost', expected one of hits-vs-area, strategies, termination, split-cost, cost-vs-work, assumptions, speed-vs-error, stability, traversal",
             )
         }),
         case("toml-escape-sequence", "control characters", || {
             told(
                 &GOOD.replace("split-cost", "\\u001b[2J"),
-                "x.toml:1:8: unknown kind '\\u{1b}[2J', expected one of hits-vs-area, strategies, termination, split-cost, cost-vs-work, assumptions, speed-vs-error, stability",
+                "x.toml:1:8: unknown kind '\\u{1b}[2J', expected one of hits-vs-area, strategies, termination, split-cost, cost-vs-work, assumptions, speed-vs-error, stability, traversal",
             )
         }),
         case("toml-unknown-stop-rule", "rules", || {
