@@ -5,7 +5,7 @@ use std::arch::x86_64::*;
 
 use glam::{DVec3, Vec3};
 
-use crate::geom::{Frame, Triangle};
+use crate::geom::{Frame, Ray, Triangle};
 
 use super::lists::{Cut, Entries};
 
@@ -188,26 +188,26 @@ macro_rules! sieve {
         $name:ident, $real:ident, $vector:ident, $row:ident, $transpose:ident, $corners:ident, $permute:ident, $index:ident,
         $add_index:ident, $sub:ident, $mul:ident, $cmp:ident, $zero:ident
     ) => {
-        /// Call `pass(i, place)` for each ray, number i of `rays`, and each triangle, with its place, whose edges let the ray
+        /// Call `pass(i, place)` for each ray of a list, by place,  and each triangle, with its place, whose edges let the ray
         /// pass.
         ///
         /// # Safety
-        /// `rays` must be numbers of frames.
+        /// The list must hold numbers of rays.
         #[target_feature(enable = "avx512f,avx512vl")]
         pub(super) unsafe fn $name<'t>(
-            frames: &[Frame<$real>],
-            rays: &[u32],
+            rays: &[Ray<$vector>],
+            list: &[u32],
             triangles: impl Iterator<Item = (usize, &'t Triangle<$vector>)> + Clone,
             mut pass: impl FnMut(usize, usize),
         ) {
-            debug_assert!(rays.iter().all(|&r| (r as usize) < frames.len()));
-            for (chunk, eight) in rays.chunks(8).enumerate() {
+            debug_assert!(list.iter().all(|&r| (r as usize) < rays.len()));
+            for (chunk, eight) in list.chunks(8).enumerate() {
                 // Lanes that are left over repeat the last ray.
                 let last = eight.len() - 1;
                 let live = !0u8 >> (7 - last);
                 let rows = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane: usize| {
                     // SAFETY: see above.
-                    unsafe { $row(frames.as_ptr().add(eight[lane.min(last)] as usize)) }
+                    unsafe { $row(&rays.get_unchecked(eight[lane.min(last)] as usize).frame) }
                 });
                 let ([ox, oy, oz, sx, sy], [kx, ky, kz]) = $transpose(rows);
                 for (place, triangle) in triangles.clone() {
@@ -291,27 +291,26 @@ fn corners_f32(Triangle(corners): &Triangle<Vec3>) -> [__m256; 2] {
 }
 
 /// The seven words of a frame, the last of them the axes.
-///
-/// # Safety
-/// The pointer must be to a frame.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl")]
-unsafe fn row_f64(frame: *const Frame<f64>) -> __m512d {
+fn row_f64(frame: &Frame<f64>) -> __m512d {
     const { assert!(size_of::<Frame<f64>>() == 56) };
-    // SAFETY: six numbers of 64 bits and the axes, of 32; the half word behind these is not read.
-    unsafe { _mm512_castps_pd(_mm512_maskz_loadu_ps(0x1fff, frame.cast())) }
+    // SAFETY: a frame has six numbers of 64 bits and the axes, of 32; the half word behind these is not read.
+    unsafe {
+        _mm512_castps_pd(_mm512_maskz_loadu_ps(
+            0x1fff,
+            std::ptr::from_ref(frame).cast(),
+        ))
+    }
 }
 
 /// The seven words of a frame, the last of them the axes.
-///
-/// # Safety
-/// The pointer must be to a frame.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl")]
-unsafe fn row_f32(frame: *const Frame<f32>) -> __m256 {
+fn row_f32(frame: &Frame<f32>) -> __m256 {
     const { assert!(size_of::<Frame<f32>>() == 28) };
-    // SAFETY: seven words of 32 bits.
-    unsafe { _mm256_maskz_loadu_ps(0x7f, frame.cast()) }
+    // SAFETY: a frame has seven words of 32 bits.
+    unsafe { _mm256_maskz_loadu_ps(0x7f, std::ptr::from_ref(frame).cast()) }
 }
 
 /// Origin and shear, and the axes, of eight rays.

@@ -2,7 +2,7 @@
 
 use glam::{DVec3, Vec3};
 
-use crate::geom::{Frame, Triangle, Vector};
+use crate::geom::{Ray, Triangle, Vector};
 
 use super::lists::{Cut, Entries, divide};
 #[cfg(target_arch = "x86_64")]
@@ -69,13 +69,13 @@ pub trait Lane: Vector {
         n: usize,
     ) -> (usize, usize);
 
-    /// Call `pass(i, place)` for each ray, number i of `rays`, and each triangle, with its place, whose edges let the ray
+    /// Call `pass(i, place)` for each ray of a list, by place,  and each triangle, with its place, whose edges let the ray
     /// pass; or for all of them, where there are no instructions for many at once.
     #[doc(hidden)]
     fn sieve<'t>(
         lanes: Lanes,
-        frames: &[Frame<Self::Real>],
-        rays: &[u32],
+        rays: &[Ray<Self>],
+        list: &[u32],
         triangles: impl Iterator<Item = (usize, &'t Triangle<Self>)> + Clone,
         pass: impl FnMut(usize, usize),
     ) where
@@ -109,17 +109,17 @@ macro_rules! lane {
             #[cfg_attr(target_arch = "x86_64", allow(unsafe_code))]
             fn sieve<'t>(
                 lanes: Lanes,
-                frames: &[Frame<$real>],
-                rays: &[u32],
+                rays: &[Ray<Self>],
+                list: &[u32],
                 triangles: impl Iterator<Item = (usize, &'t Triangle<Self>)> + Clone,
                 mut pass: impl FnMut(usize, usize),
             ) {
                 match lanes.0 {
                     // SAFETY: such a value is only made where the processor has the instructions.
                     #[cfg(target_arch = "x86_64")]
-                    Set::Avx512 => unsafe { avx512::$sieve(frames, rays, triangles, pass) },
+                    Set::Avx512 => unsafe { avx512::$sieve(rays, list, triangles, pass) },
                     _ => {
-                        for i in 0..rays.len() {
+                        for i in 0..list.len() {
                             for (place, _) in triangles.clone() {
                                 pass(i, place);
                             }

@@ -68,7 +68,9 @@ impl<V: Vector> Order<V> {
     }
 
     /// Put them in order; gives the numbers of the lines of each octant, the first octant first.
-    pub fn octants(&mut self) -> impl Iterator<Item = (usize, impl Iterator<Item = usize>)> {
+    pub fn octants(
+        &mut self,
+    ) -> impl Iterator<Item = (usize, impl Iterator<Item = usize> + Clone)> {
         self.keys.sort_unstable();
         let octant = |key: u64| (key >> (NUMBER + 6 * BITS)) as usize;
         let number = |key: &u64| (key & ((1 << NUMBER) - 1)) as usize;

@@ -94,7 +94,6 @@ fn sifts_alike<V: Lane>(point: impl Fn([f64; 3]) -> V) {
             rays.push(Ray::new(Line::new(origin, target - origin), Span::FULL));
         }
     }
-    let frames: Vec<_> = rays.iter().map(|ray| ray.frame).collect();
     let (mut hits, mut passed_in_all) = (0, 0);
     for n in 1..30 {
         let numbers: Vec<u32> = (0..n).map(|i| (i * 37 + n) % 100).collect();
@@ -103,7 +102,7 @@ fn sifts_alike<V: Lane>(point: impl Fn([f64; 3]) -> V) {
             let at = |i: usize, place: usize| i * triangles.len() + place;
             V::sieve(
                 lanes,
-                &frames,
+                &rays,
                 &numbers,
                 triangles.iter().enumerate(),
                 |i, place| {

@@ -3,7 +3,7 @@
 //! Lists go down as they do in counting, widened as in tracing. All rays of an octant meet the near child before the far
 //! one, so a far list waits until the near subtree is done; then those go on that have found nothing before it begins.
 
-use crate::geom::{Frame, Ray, Real, Span, Targets};
+use crate::geom::{Aabb, Ray, Real, Span, Targets};
 use crate::kd::traverse::{Planes, Stack};
 use crate::kd::{Ask, Hit, NodeKind, Work};
 
@@ -15,12 +15,12 @@ use super::order::Order;
 pub struct RayStreams<V: Lane> {
     /// Origin and reciprocal direction of the octant's rays, by axis.
     lines: [Vec<[V::Real; 2]>; 3],
-    /// Their frames.
-    frames: Vec<Frame<V::Real>>,
-    /// Their numbers in the set.
-    numbers: Vec<u32>,
+    /// The octant's rays, in order.
+    rays: Vec<Ray<V>>,
     /// Up to which t further nodes matter to them.
     limits: Vec<V::Real>,
+    /// What they have found.
+    found: Vec<Option<Hit<V::Real>>>,
     lists: Lists<V>,
     lanes: Lanes,
     stack: Stack<V::Real>,
@@ -37,7 +37,6 @@ impl<V: Lane> Default for RayStreams<V> {
 struct Question<'a, T: Planes, O: ?Sized> {
     tree: &'a T,
     objects: &'a O,
-    rays: &'a [Ray<T::Vector>],
     ask: Ask,
 }
 
@@ -46,9 +45,9 @@ impl<V: Lane> RayStreams<V> {
     pub fn with(lanes: Lanes) -> Self {
         Self {
             lines: Default::default(),
-            frames: Vec::new(),
-            numbers: Vec::new(),
+            rays: Vec::new(),
             limits: Vec::new(),
+            found: Vec::new(),
             lists: Lists::new(lanes),
             lanes,
             stack: Stack::default(),
@@ -78,53 +77,42 @@ impl<V: Lane> RayStreams<V> {
                 order.add(number, &ray.line, span);
             }
         }
-        let question = Question {
-            tree,
-            objects,
-            rays,
-            ask,
-        };
+        let question = Question { tree, objects, ask };
         for (octant, numbers) in order.octants() {
-            let n = self.fill(&question, numbers);
-            self.descend(&question, hits, (0, octant), 0, n);
+            // In a loop of its own, so that many of these rays are on their way from memory at a time.
+            self.rays.clear();
+            self.rays.extend(numbers.clone().map(|number| rays[number]));
+            self.start(world);
+            self.descend(&question, (0, octant), 0, self.rays.len());
+            for (number, found) in numbers.zip(&self.found) {
+                hits[number] = *found;
+            }
         }
         self.work
     }
 
-    /// Make these rays, of one octant, the list of the root. Returns how many there are.
-    fn fill<T: Planes<Vector = V, Real = V::Real>, O: ?Sized>(
-        &mut self,
-        question: &Question<T, O>,
-        numbers: impl Iterator<Item = usize>,
-    ) -> usize {
+    /// Make the octant's rays, which all meet the world, the list of the root.
+    fn start(&mut self, world: &Aabb<V>) {
         self.lines.iter_mut().for_each(Vec::clear);
-        self.frames.clear();
-        self.numbers.clear();
         self.lists.clear();
-        for number in numbers {
-            let ray = &question.rays[number];
-            // Those that miss the world are not in the order.
-            let world = question.tree.world();
-            let Some(Span { t0, t1 }) = world.clip_conservative(&ray.line, ray.span) else {
-                continue;
-            };
-            self.lists.push(t0, t1, self.numbers.len() as u32);
+        for (number, ray) in self.rays.iter().enumerate() {
             for (k, lines) in self.lines.iter_mut().enumerate() {
                 lines.push([ray.line.origin[k], ray.line.inverse[k]]);
             }
-            self.frames.push(ray.frame);
-            self.numbers.push(number as u32);
+            let span = world.clip_conservative(&ray.line, ray.span);
+            let Span { t0, t1 } = span.expect("those that miss the world are not in the order");
+            self.lists.push(t0, t1, number as u32);
         }
-        let n = self.numbers.len();
+        let n = self.rays.len();
         self.limits.clear();
         self.limits.resize(n, V::Real::INFINITY);
-        n
+        self.found.clear();
+        self.found.resize(n, None);
     }
 
     fn descend<T: Planes<Vector = V, Real = V::Real>, O: Targets<Vector = V> + ?Sized>(
         &mut self,
         question: &Question<T, O>,
-        hits: &mut [Option<Hit<V::Real>>],
         (node, octant): (u32, usize),
         start: usize,
         n: usize,
@@ -138,7 +126,7 @@ impl<V: Lane> RayStreams<V> {
                 self.work.tests += n as u64 * u64::from(count);
                 let in_leaf = question.tree.objects(first, count);
                 if count > 0 {
-                    self.test(question, hits, in_leaf, start, n);
+                    self.test(question, in_leaf, start, n);
                 }
             }
             NodeKind::Inner { axis, split, left } => {
@@ -152,9 +140,9 @@ impl<V: Lane> RayStreams<V> {
                 let right_first = (octant >> axis) as u32 & 1;
                 let (near, far) = (left + right_first, left + 1 - right_first);
                 // The near list lies behind the far one: it goes first, then its place is free.
-                self.descend(question, hits, (near, octant), start + room(n), near_n);
+                self.descend(question, (near, octant), start + room(n), near_n);
                 let far_n = self.lists.retain(&self.limits, start, far_n);
-                self.descend(question, hits, (far, octant), start, far_n);
+                self.descend(question, (far, octant), start, far_n);
             }
         }
     }
@@ -164,29 +152,27 @@ impl<V: Lane> RayStreams<V> {
     fn test<T: Planes<Vector = V>, O: Targets<Vector = V> + ?Sized>(
         &mut self,
         question: &Question<T, O>,
-        hits: &mut [Option<Hit<V::Real>>],
         in_leaf: &[u32],
         start: usize,
         n: usize,
     ) {
-        let &Question {
-            objects, rays, ask, ..
-        } = question;
+        let &Question { objects, ask, .. } = question;
         let list = self.lists.lines(start, n);
-        let (numbers, limits) = (&self.numbers, &mut self.limits);
+        let (rays, limits, found) = (&self.rays, &mut self.limits, &mut self.found);
         let tests = &mut self.work.tests;
         let mut test = |i: usize, place: usize| {
-            let limit = &mut limits[list[i] as usize];
+            let number = list[i] as usize;
+            let limit = &mut limits[number];
             // An any-hit ends with the first object that is hit.
             if *limit == V::Real::NEG_INFINITY {
                 return;
             }
-            let (number, object) = (numbers[list[i] as usize] as usize, in_leaf[place]);
+            let object = in_leaf[place];
             let Some(t) = objects.intersect(object, &rays[number]) else {
                 return;
             };
-            let best = Hit::nearer(hits[number], object, t);
-            hits[number] = best;
+            let best = Hit::nearer(found[number], object, t);
+            found[number] = best;
             match (ask, best) {
                 (Ask::Nearest, Some(best)) => *limit = best.t,
                 (Ask::Any, _) => {
@@ -199,7 +185,7 @@ impl<V: Lane> RayStreams<V> {
         if in_leaf.iter().all(|&o| objects.triangle(o).is_some()) {
             let places = in_leaf.iter().enumerate();
             let triangles = places.filter_map(|(place, &o)| Some((place, objects.triangle(o)?)));
-            V::sieve(self.lanes, &self.frames, list, triangles, test);
+            V::sieve(self.lanes, rays, list, triangles, test);
         } else {
             for i in 0..n {
                 for place in 0..in_leaf.len() {
