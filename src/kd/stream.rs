@@ -65,7 +65,9 @@ where
 
 /// The arenas of one thread, kept from block to block.
 pub struct Streams {
-    /// Origin and reciprocal direction of the octant's lines, by axis.
+    /// The octant's lines, in order.
+    octant: Vec<Line>,
+    /// Their origins and reciprocal directions, by axis.
     lines: [Vec<[f64; 2]>; 3],
     /// Lists on their way down.
     lists: Lists<DVec3>,
@@ -82,6 +84,7 @@ impl Streams {
     /// With these instructions; counts are the same with all of them.
     pub fn with(lanes: Lanes) -> Self {
         Self {
+            octant: Vec::new(),
             lines: Default::default(),
             lists: Lists::new(lanes),
             stack: Stack::default(),
@@ -101,9 +104,12 @@ impl Streams {
             }
         }
         for (octant, numbers) in order.octants() {
+            // In a loop of its own, so that many of these lines are on their way from memory at a time.
+            self.octant.clear();
+            self.octant.extend(numbers.map(|number| lines[number]));
             self.lines.iter_mut().for_each(Vec::clear);
             self.lists.clear();
-            for line in numbers.map(|number| &lines[number]) {
+            for line in &self.octant {
                 // Those that miss the world are not in the order.
                 let Some(Span { t0, t1 }) = tree.world.clip(line, Span::FULL) else {
                     continue;
