@@ -83,13 +83,13 @@ impl<V: Vector> Line<V> {
     /// reciprocal overflows.
     #[inline]
     pub fn is_parallel(&self, axis: Axis) -> bool {
-        self.inverse[axis] == V::Real::ZERO
+        self.inverse.parts()[axis] == V::Real::ZERO
     }
 
     /// Parameter at which the line crosses the plane `x[axis] = s`; the line must not be parallel to it.
     #[inline]
     pub fn t_at(&self, axis: Axis, s: V::Real) -> V::Real {
-        (s - self.origin[axis]) * self.inverse[axis]
+        (s - self.origin.parts()[axis]) * self.inverse.parts()[axis]
     }
 
     /// Whether any of the three direction parts counts as zero.

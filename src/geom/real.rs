@@ -61,7 +61,7 @@ pub trait Vector:
     /// The type of its parts.
     type Real: Real;
 
-    /// Its parts in memory, for axes that only a ray knows.
+    /// Its parts in memory: read by an axis that is not known beforehand, they need no branch.
     fn parts(&self) -> &[Self::Real; 3];
 
     /// The lesser of each pair of parts.

@@ -40,7 +40,7 @@ impl<T: Real> Ahead<T> {
         };
         let world = tree.world();
         for axis in (0..3).filter(|&axis| !line.is_parallel(axis)) {
-            let up = line.inverse[axis] > T::ZERO;
+            let up = line.inverse.parts()[axis] > T::ZERO;
             let face = if up { world.hi } else { world.lo };
             ahead.add(line.t_at(axis, face[axis]), None);
         }
@@ -97,7 +97,7 @@ impl<T: Planes> Walk for Restart<'_, T> {
                 };
                 probe.inner(node);
                 if line.is_parallel(axis) {
-                    let origin = line.origin[axis];
+                    let origin = line.origin.parts()[axis];
                     if origin == split {
                         break 'restart;
                     }
@@ -120,7 +120,7 @@ impl<T: Planes> Walk for Restart<'_, T> {
                     break 'restart;
                 };
                 probe.turn(node, if far { Turn::Far } else { Turn::Near });
-                let down = line.inverse[axis] < zero;
+                let down = line.inverse.parts()[axis] < zero;
                 node = left + u32::from(far != down);
             };
             probe.leaf(node, count);

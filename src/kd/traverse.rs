@@ -134,7 +134,7 @@ pub fn traverse<M: Mode, T: Planes, P: Probe>(
             NodeKind::Inner { axis, split, left } => {
                 probe.inner(node);
                 if line.is_parallel(axis) {
-                    let origin = line.origin[axis];
+                    let origin = line.origin.parts()[axis];
                     let inside = origin == split;
                     probe.turn(node, if inside { Turn::Both } else { Turn::Near });
                     node = left + u32::from(origin > split);
@@ -143,7 +143,7 @@ pub fn traverse<M: Mode, T: Planes, P: Probe>(
                     }
                     continue;
                 }
-                let right_first = u32::from(line.inverse[axis] < T::Real::ZERO);
+                let right_first = u32::from(line.inverse.parts()[axis] < T::Real::ZERO);
                 let (near, far) = (left + right_first, left + 1 - right_first);
                 let t = line.t_at(axis, split);
                 let slack = slack(padding, t);

@@ -80,12 +80,12 @@ impl<V: Vector> Way<'_, V> {
     pub(super) fn above(&self, axis: Axis, split: V::Real) -> Option<(bool, Turn)> {
         let line = self.line;
         if line.is_parallel(axis) {
-            let origin = line.origin[axis];
+            let origin = line.origin.parts()[axis];
             return (origin != split).then_some((origin > split, Turn::Near));
         }
         let t = line.t_at(axis, split);
         let far = t + slack(self.padding, t) < self.t0;
-        let down = line.inverse[axis] < V::Real::ZERO;
+        let down = line.inverse.parts()[axis] < V::Real::ZERO;
         Some((far != down, if far { Turn::Far } else { Turn::Near }))
     }
 }
@@ -151,7 +151,7 @@ pub(super) fn follow<M: Mode, T: Planes, P: Probe>(
     // What is left for the stack, should the walk not be certain.
     let mut rest = Span { t0, t1 };
     let in_a_face = (0..3).any(|axis| {
-        let origin = line.origin[axis];
+        let origin = line.origin.parts()[axis];
         line.is_parallel(axis) && (origin == world.lo[axis] || origin == world.hi[axis])
     });
     let first = if in_a_face {
@@ -163,7 +163,7 @@ pub(super) fn follow<M: Mode, T: Planes, P: Probe>(
     // The root is entered up to a slack later than its widened span begins.
     let start = slack(padding, t0);
     let mut entered = t0 + start + start + start + start;
-    let up = [0, 1, 2].map(|axis| usize::from(line.inverse[axis] > zero));
+    let up = [0, 1, 2].map(|axis| usize::from(line.inverse.parts()[axis] > zero));
     while let Some(number) = next {
         let here = &links.leaves[number as usize];
         probe.leaf(here.node, here.count);
