@@ -63,19 +63,21 @@ impl<V: Vector> Line<V> {
     #[inline]
     pub fn new(origin: V, direction: V) -> Self {
         debug_assert!((0..3).all(|k| origin[k].is_finite() && direction[k].is_finite()));
-        let parts = [0, 1, 2].map(|k| {
+        // Three calls, not an array's `map`: that is not inlined.
+        let part = |k: Axis| {
             let reciprocal = V::Real::ONE / direction[k];
             if reciprocal.is_finite() {
                 (direction[k], reciprocal)
             } else {
                 (V::Real::ZERO, V::Real::ZERO)
             }
-        });
-        debug_assert!(parts.iter().any(|part| part.0 != V::Real::ZERO));
+        };
+        let (x, y, z) = (part(0), part(1), part(2));
+        debug_assert!([x, y, z].iter().any(|part| part.0 != V::Real::ZERO));
         Self {
             origin,
-            direction: parts.map(|part| part.0).into(),
-            inverse: parts.map(|part| part.1).into(),
+            direction: [x.0, y.0, z.0].into(),
+            inverse: [x.1, y.1, z.1].into(),
         }
     }
 

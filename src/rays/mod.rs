@@ -11,6 +11,7 @@ pub mod source;
 mod stratified;
 mod surface;
 mod surface_points;
+mod turn;
 
 pub use address::{Purpose, Uniforms, generator};
 pub use conditional::Conditional;

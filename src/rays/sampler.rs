@@ -13,7 +13,7 @@ use crate::geom::{Aabb, Line};
 use super::address::{Purpose, Uniforms};
 use super::sobol::{LARGEST_LOG2, ScrambledSobol};
 use super::stratified::Stratified;
-use super::surface_line;
+use super::surface::Lines;
 
 /// How the points of a set are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -173,8 +173,7 @@ impl PointSet {
 
     /// The lines of these points through a box.
     pub fn lines(&self, world: &Aabb, indices: Range<u64>) -> impl Iterator<Item = Line> + use<> {
-        let world = *world;
-        self.range(indices).map(move |u| surface_line(&world, u))
+        Lines::new(world, self.range(indices))
     }
 }
 
