@@ -5,7 +5,7 @@
 //! > Copyright (C) 1993 by Sun Microsystems, Inc. All rights reserved. Developed at SunSoft, a Sun Microsystems, Inc. business.
 //! > Permission to use, copy, modify, and distribute this software is freely granted, provided that this notice is preserved.
 
-use std::f64::consts::{FRAC_PI_4, FRAC_PI_8, TAU};
+use std::f64::consts::{FRAC_PI_8, TAU};
 
 /// 1.5 * 2^52: added to a small number and taken off again, it leaves the nearest integer.
 const TO_INTEGER: f64 = 1.5 / f64::EPSILON;
@@ -98,6 +98,8 @@ pub(super) fn negated_if(so: bool, x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use std::f64::consts::FRAC_PI_4;
+
     use super::super::address::{Purpose, generator, uniform};
     use super::*;
 
