@@ -146,6 +146,8 @@ impl<T: Planes> Walk for Restart<'_, T> {
             crossing = plane;
             probe.link();
         }
+        // An exit within rounding of where the ray begins: what is before is none of its.
+        rest.t0 = rest.t0.max(t0);
         fall_back::<M, T, P>(tree, line, rest, stack, probe, leaf);
     }
 }

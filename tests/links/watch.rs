@@ -129,7 +129,8 @@ impl<'a, T: Planes> Ways<'a, T> {
             let behind = &stack.leaves[leaves..];
             assert!(after.ends_with(behind), "way {way}: {}", ray());
             let again = &after[..after.len() - behind.len()];
-            assert!(again.iter().all(|leaf| before.contains(leaf)));
+            let known = again.iter().all(|leaf| before.contains(leaf));
+            assert!(known, "way {way}: {again:?} after {before:?}: {}", ray());
         }
         let steps = |walk: &Watched| {
             let own = walk.fell_back.map_or(walk.inner.len(), |(_, inner)| inner);

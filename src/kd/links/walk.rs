@@ -191,6 +191,8 @@ pub(super) fn follow<M: Mode, T: Planes, P: Probe>(
             }
         };
     }
+    // An exit within rounding of where the ray begins: what is before is none of its.
+    rest.t0 = rest.t0.max(t0);
     fall_back::<M, T, P>(tree, line, rest, stack, probe, leaf);
 }
 
