@@ -21,7 +21,7 @@ const ROUNDS: usize = 7;
 /// Rays of a stream.
 const RAYS: usize = 1 << 20;
 
-/// As many of them are traced one by one: their rate does not depend on how many there are.
+/// As many of them are traced one by one, which takes longer: enough that most of what they read is not in the nearest caches.
 const SINGLE: usize = 1 << 14;
 
 fn main() {
@@ -76,7 +76,7 @@ fn rows(what: &str, scene: &Scene, table: &mut Table) {
             }
         }
     }
-    let seconds = jobs.least(ROUNDS);
+    let seconds = jobs.least(ROUNDS, table);
 
     table.row(&[format!("**{what}**"), String::new(), String::new()]);
     let plain = names[0].1 / seconds[0];

@@ -129,6 +129,9 @@ pub fn any_watched<W: Walk>(
                     break;
                 }
             }
+        } else {
+            // A span that begins at -infinity goes on.
+            untested += in_leaf.len();
         }
         match found {
             Some(_) => RealOf::<W>::NEG_INFINITY,

@@ -64,7 +64,7 @@ pub fn automatic_depth(objects: usize) -> usize {
 /// A plane whose one-level cost is above this share of the leaf's gains little: the rule `automatic` counts it.
 const LITTLE_GAIN: f64 = 0.75;
 
-/// Largest depth bound of any rule. It bounds the traversal stack (one entry a level) and the recursion of the builder;
+/// Largest depth bound of any rule. It bounds the traversal stack (one entry a level) and the recursion of builder and streams;
 /// the number of nodes is bounded by the objects, as these rules stop at empty nodes.
 pub const MAX_DEPTH: u32 = 128;
 

@@ -81,7 +81,7 @@ impl Default for Streams {
 }
 
 impl Streams {
-    /// With these instructions; counts are the same with all of them.
+    /// With these instructions; counts of finite lines are the same with all of them.
     pub fn with(lanes: Lanes) -> Self {
         Self {
             octant: Vec::new(),
@@ -91,7 +91,10 @@ impl Streams {
         }
     }
 
-    /// Add the counts of `lines`.
+    /// Add the counts of `lines`, which are finite.
+    ///
+    /// # Panics
+    /// If there are 2^31 or more.
     pub fn count(&mut self, tree: &Tree, lines: &[Line], counts: &mut Counts) {
         counts.lines += lines.len() as u64;
         let mut order = Order::new(&tree.world);
@@ -110,10 +113,8 @@ impl Streams {
             self.lines.iter_mut().for_each(Vec::clear);
             self.lists.clear();
             for line in &self.octant {
-                // Those that miss the world are not in the order.
-                let Some(Span { t0, t1 }) = tree.world.clip(line, Span::FULL) else {
-                    continue;
-                };
+                let span = tree.world.clip(line, Span::FULL);
+                let Span { t0, t1 } = span.expect("those that miss the world are not in the order");
                 self.lists.push(t0, t1, self.lines[0].len() as u32);
                 for (k, lines) in self.lines.iter_mut().enumerate() {
                     lines.push([line.origin[k], line.inverse[k]]);

@@ -45,12 +45,13 @@ static EIGHT: [[u32; 8]; 256] = packings();
 macro_rules! divide {
     (
         $name:ident, $lanes:literal, $set1:ident, $load:ident, $store:ident, $sub:ident, $mul:ident, $add:ident, $andnot:ident,
-        $min:ident, $max:ident, $cmp:ident, $movemask:ident, $gather:ident, $pack:ident, $pack_lines:ident
+        $min:ident, $max:ident, $cmp:ident, $movemask:ident, $gather:ident, $pack:ident, $pack_lines:ident, $set1_line:ident,
+        $load_line:ident, $min_line:ident
     ) => {
         /// Divide the first `n` entries of a list.
         ///
         /// # Panics
-        /// If an array is shorter than `n` rounded up to whole vectors.
+        /// If an array is shorter than `n` rounded up to whole vectors, or there are no lines or more than 2^32.
         #[target_feature(enable = "avx2")]
         pub(super) fn $name(
             cut: &Cut<$name>,
@@ -61,6 +62,8 @@ macro_rules! divide {
             let room = n.next_multiple_of($lanes);
             let shortest = |e: &Entries<$name>| e.t0.len().min(e.t1.len()).min(e.line.len());
             assert!(room <= shortest(&list).min(shortest(&near)));
+            assert!((1..=1 << 32).contains(&cut.lines.len()));
+            let last_line = $set1_line((cut.lines.len() - 1) as i32);
             let Entries { t0, t1, line } = list;
             let (position, padding) = ($set1(cut.position), $set1(cut.padding));
             let (most, sign) = ($set1($name::MAX), $set1(-0.0));
@@ -72,15 +75,15 @@ macro_rules! divide {
                 } else {
                     (1 << $lanes) - 1
                 };
-                // SAFETY: i + lanes <= room, which every array holds. Entries that are live hold numbers of lines of this
-                // cut, as all that are put into lists do; the others take line 0, and there are lines.
+                // SAFETY: i + lanes <= room, which every array holds. No number that is gathered is beyond the last line's, whatever
+                // the entries that are not live hold.
                 let (first, last, number, [origin, inverse]) = unsafe {
-                    let number: [u32; $lanes] = line.as_ptr().add(i).cast::<[u32; $lanes]>().read();
+                    let number = $load_line(line.as_ptr().add(i).cast());
                     (
                         $load(t0.as_ptr().add(i)),
                         $load(t1.as_ptr().add(i)),
                         number,
-                        $gather(cut.lines, number, left),
+                        $gather(cut.lines, $min_line(number, last_line)),
                     )
                 };
                 let t = $mul($sub(position, origin), inverse);
@@ -127,7 +130,10 @@ divide!(
     _mm256_movemask_pd,
     gather_f64,
     pack_f64,
-    pack_lines_f64
+    pack_lines_f64,
+    _mm_set1_epi32,
+    _mm_loadu_si128,
+    _mm_min_epu32
 );
 divide!(
     f32,
@@ -145,21 +151,24 @@ divide!(
     _mm256_movemask_ps,
     gather_f32,
     pack_f32,
-    pack_lines_f32
+    pack_lines_f32,
+    _mm256_set1_epi32,
+    _mm256_loadu_si256,
+    _mm256_min_epu32
 );
 
 /// Origins and reciprocals of 4 lines.
 ///
 /// # Safety
-/// The first `left` numbers must be below the number of lines, and there must be lines.
+/// All numbers must be below the number of lines.
 #[inline]
 #[target_feature(enable = "avx2")]
-unsafe fn gather_f64(lines: &[[f64; 2]], number: [u32; 4], left: usize) -> [__m256d; 2] {
-    let pair = |lane: usize| {
-        let number = if lane < left { number[lane] } else { 0 };
-        // SAFETY: see above; a pair is two numbers.
-        unsafe { _mm_loadu_pd(lines.as_ptr().add(number as usize).cast()) }
-    };
+unsafe fn gather_f64(lines: &[[f64; 2]], number: __m128i) -> [__m256d; 2] {
+    let mut numbers = [0u32; 4];
+    // SAFETY: four numbers fit.
+    unsafe { _mm_storeu_si128(numbers.as_mut_ptr().cast(), number) };
+    // SAFETY: see above; a pair is two numbers.
+    let pair = |i: usize| unsafe { _mm_loadu_pd(lines.as_ptr().add(numbers[i] as usize).cast()) };
     let (even, odd) = (
         _mm256_set_m128d(pair(2), pair(0)),
         _mm256_set_m128d(pair(3), pair(1)),
@@ -170,14 +179,17 @@ unsafe fn gather_f64(lines: &[[f64; 2]], number: [u32; 4], left: usize) -> [__m2
 /// Origins and reciprocals of 8 lines.
 ///
 /// # Safety
-/// The first `left` numbers must be below the number of lines, and there must be lines.
+/// All numbers must be below the number of lines.
 #[inline]
 #[target_feature(enable = "avx2")]
-unsafe fn gather_f32(lines: &[[f32; 2]], number: [u32; 8], left: usize) -> [__m256; 2] {
-    let pair = |lane: usize| {
-        let number = if lane < left { number[lane] } else { 0 };
-        // SAFETY: see above; a pair is as long as a number of 64 bits.
-        unsafe { _mm_load_sd(lines.as_ptr().add(number as usize).cast()) }
+unsafe fn gather_f32(lines: &[[f32; 2]], number: __m256i) -> [__m256; 2] {
+    let mut numbers = [0u32; 8];
+    // SAFETY: eight numbers fit.
+    unsafe { _mm256_storeu_si256(numbers.as_mut_ptr().cast(), number) };
+    let pair = |i: usize| {
+        // SAFETY: see above; a pair is 64 bits, which this load does not want aligned.
+        let pair = unsafe { _mm_loadl_epi64(lines.as_ptr().add(numbers[i] as usize).cast()) };
+        _mm_castsi128_pd(pair)
     };
     let four = |i: usize| {
         let low = _mm_unpacklo_pd(pair(i), pair(i + 1));
@@ -215,12 +227,12 @@ fn pack_f32(numbers: __m256, set: usize) -> __m256 {
 /// There must be room for four.
 #[inline]
 #[target_feature(enable = "avx2")]
-unsafe fn pack_lines_f64(to: *mut u32, number: [u32; 4], set: usize) {
-    // SAFETY: a packing and the numbers have four words each, and see above.
+unsafe fn pack_lines_f64(to: *mut u32, number: __m128i, set: usize) {
+    // SAFETY: a packing has four words, and see above.
     unsafe {
         let packing = _mm_loadu_si128(FOUR[set].as_ptr().cast());
-        let numbers = _mm_loadu_ps(number.as_ptr().cast());
-        _mm_storeu_ps(to.cast(), _mm_permutevar_ps(numbers, packing));
+        let packed = _mm_permutevar_ps(_mm_castsi128_ps(number), packing);
+        _mm_storeu_ps(to.cast(), packed);
     }
 }
 
@@ -230,11 +242,10 @@ unsafe fn pack_lines_f64(to: *mut u32, number: [u32; 4], set: usize) {
 /// There must be room for eight.
 #[inline]
 #[target_feature(enable = "avx2")]
-unsafe fn pack_lines_f32(to: *mut u32, number: [u32; 8], set: usize) {
-    // SAFETY: a packing and the numbers have eight words each, and see above.
+unsafe fn pack_lines_f32(to: *mut u32, number: __m256i, set: usize) {
+    // SAFETY: a packing has eight words, and see above.
     unsafe {
         let packing = _mm256_loadu_si256(EIGHT[set].as_ptr().cast());
-        let numbers = _mm256_loadu_si256(number.as_ptr().cast());
-        _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(numbers, packing));
+        _mm256_storeu_si256(to.cast(), _mm256_permutevar8x32_epi32(number, packing));
     }
 }

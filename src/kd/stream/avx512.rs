@@ -14,12 +14,12 @@ macro_rules! divide {
     (
         $name:ident, $lanes:literal, $mask:ty, $set1:ident, $load:ident, $store:ident, $sub:ident, $mul:ident, $add:ident,
         $abs:ident, $min:ident, $max:ident, $cmp:ident, $compress:ident, $load_line:ident, $store_line:ident,
-        $compress_line:ident, $gather:ident
+        $compress_line:ident, $set1_line:ident, $min_line:ident, $gather:ident
     ) => {
         /// Divide the first `n` entries of a list, with the compress instructions of AVX-512.
         ///
         /// # Panics
-        /// If an array is shorter than `n` rounded up to whole vectors.
+        /// If an array is shorter than `n` rounded up to whole vectors, or there are no lines or more than 2^31.
         #[target_feature(enable = "avx512f,avx512vl")]
         pub(super) fn $name(
             cut: &Cut<$name>,
@@ -30,11 +30,8 @@ macro_rules! divide {
             let room = n.next_multiple_of($lanes);
             let shortest = |e: &Entries<$name>| e.t0.len().min(e.t1.len()).min(e.line.len());
             assert!(room <= shortest(&list).min(shortest(&near)));
-            debug_assert!(
-                list.line[..n]
-                    .iter()
-                    .all(|&l| (l as usize) < cut.lines.len())
-            );
+            assert!((1..=1 << 31).contains(&cut.lines.len()));
+            let last_line = $set1_line((cut.lines.len() - 1) as i32);
             let Entries { t0, t1, line } = list;
             let position = $set1(cut.position);
             let padding = $set1(cut.padding);
@@ -43,15 +40,15 @@ macro_rules! divide {
             for i in (0..n).step_by($lanes) {
                 let left = n - i;
                 let live: $mask = if left < $lanes { (1 << left) - 1 } else { !0 };
-                // SAFETY: i + lanes <= room, which every array holds. Entries that are live hold numbers of lines of this
-                // cut, as all that are put into lists do; the others are not gathered.
+                // SAFETY: i + lanes <= room, which every array holds. No number that is gathered is beyond the last line's, whatever
+                // the entries that are not live hold.
                 let (first, last, number, [origin, inverse]) = unsafe {
                     let number = $load_line(line.as_ptr().add(i).cast());
                     (
                         $load(t0.as_ptr().add(i)),
                         $load(t1.as_ptr().add(i)),
                         number,
-                        $gather(cut.lines, number, live),
+                        $gather(cut.lines, $min_line(number, last_line)),
                     )
                 };
                 let t = $mul($sub(position, origin), inverse);
@@ -109,6 +106,8 @@ divide!(
     _mm256_loadu_si256,
     _mm256_storeu_si256,
     _mm256_maskz_compress_epi32,
+    _mm256_set1_epi32,
+    _mm256_min_epu32,
     pairs_f64
 );
 divide!(
@@ -129,19 +128,21 @@ divide!(
     _mm512_loadu_si512,
     _mm512_storeu_si512,
     _mm512_maskz_compress_epi32,
+    _mm512_set1_epi32,
+    _mm512_min_epu32,
     pairs_f32
 );
 
 /// Origins and reciprocals of 8 lines.
 ///
 /// # Safety
-/// Numbers of live lanes must be below the number of lines; there must be lines.
+/// All numbers must be below the number of lines.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl")]
-unsafe fn pairs_f64(lines: &[[f64; 2]], number: __m256i, live: __mmask8) -> [__m512d; 2] {
+unsafe fn pairs_f64(lines: &[[f64; 2]], number: __m256i) -> [__m512d; 2] {
     let mut numbers = [0; 8];
-    // SAFETY: eight numbers fit. Lanes that are not live take line 0.
-    unsafe { _mm256_storeu_epi32(numbers.as_mut_ptr(), _mm256_maskz_mov_epi32(live, number)) };
+    // SAFETY: eight numbers fit.
+    unsafe { _mm256_storeu_epi32(numbers.as_mut_ptr(), number) };
     // A gather takes longer than these loads and shuffles.
     // SAFETY: see above; a pair is two numbers.
     let pair = |i: usize| unsafe { _mm_loadu_pd(lines.as_ptr().add(numbers[i] as usize).cast()) };
@@ -156,26 +157,19 @@ unsafe fn pairs_f64(lines: &[[f64; 2]], number: __m256i, live: __mmask8) -> [__m
 /// Origins and reciprocals of 16 lines.
 ///
 /// # Safety
-/// Numbers of live lanes must be below the number of lines.
+/// All numbers must be below the number of lines, and below 2^31, as a gather takes them with a sign.
 #[inline]
 #[target_feature(enable = "avx512f,avx512vl")]
-unsafe fn pairs_f32(lines: &[[f32; 2]], number: __m512i, live: __mmask16) -> [__m512; 2] {
+unsafe fn pairs_f32(lines: &[[f32; 2]], number: __m512i) -> [__m512; 2] {
     let base = lines.as_ptr().cast::<f64>();
-    let high = _mm512_extracti64x4_epi64::<1>(number);
+    let halves = [
+        _mm512_castsi512_si256(number),
+        _mm512_extracti64x4_epi64::<1>(number),
+    ];
     // A pair is gathered as one number of 64 bits.
-    // SAFETY: see above.
-    let [low, high] = unsafe {
-        [
-            _mm512_mask_i32gather_pd::<8>(
-                _mm512_setzero_pd(),
-                live as u8,
-                _mm512_castsi512_si256(number),
-                base,
-            ),
-            _mm512_mask_i32gather_pd::<8>(_mm512_setzero_pd(), (live >> 8) as u8, high, base),
-        ]
-    }
-    .map(|pairs| _mm512_castpd_ps(pairs));
+    // SAFETY: see above; a gather needs no alignment.
+    let gather = |half| unsafe { _mm512_i32gather_pd::<8>(half, base) };
+    let [low, high] = halves.map(|half| _mm512_castpd_ps(gather(half)));
     let even = _mm512_setr_epi32(0, 2, 4, 6, 8, 10, 12, 14, 16, 18, 20, 22, 24, 26, 28, 30);
     let odd = _mm512_add_epi32(even, _mm512_set1_epi32(1));
     [even, odd].map(|index| _mm512_permutex2var_ps(low, index, high))
@@ -188,27 +182,24 @@ macro_rules! sieve {
         $name:ident, $real:ident, $vector:ident, $row:ident, $transpose:ident, $corners:ident, $permute:ident, $index:ident,
         $add_index:ident, $sub:ident, $mul:ident, $cmp:ident, $zero:ident
     ) => {
-        /// Call `pass(i, place)` for each ray of a list, by place,  and each triangle, with its place, whose edges let the ray
+        /// Call `pass(i, place)` for each ray of a list, by place, and each triangle, with its place, whose edges let the ray
         /// pass.
         ///
-        /// # Safety
-        /// The list must hold numbers of rays.
+        /// # Panics
+        /// If the list holds what is no ray's number.
         #[target_feature(enable = "avx512f,avx512vl")]
-        pub(super) unsafe fn $name<'t>(
+        pub(super) fn $name<'t>(
             rays: &[Ray<$vector>],
             list: &[u32],
             triangles: impl Iterator<Item = (usize, &'t Triangle<$vector>)> + Clone,
             mut pass: impl FnMut(usize, usize),
         ) {
-            debug_assert!(list.iter().all(|&r| (r as usize) < rays.len()));
             for (chunk, eight) in list.chunks(8).enumerate() {
                 // Lanes that are left over repeat the last ray.
                 let last = eight.len() - 1;
                 let live = !0u8 >> (7 - last);
-                let rows = [0, 1, 2, 3, 4, 5, 6, 7].map(|lane: usize| {
-                    // SAFETY: see above.
-                    unsafe { $row(&rays.get_unchecked(eight[lane.min(last)] as usize).frame) }
-                });
+                let rows = [0, 1, 2, 3, 4, 5, 6, 7]
+                    .map(|lane: usize| $row(&rays[eight[lane.min(last)] as usize].frame));
                 let ([ox, oy, oz, sx, sy], [kx, ky, kz]) = $transpose(rows);
                 for (place, triangle) in triangles.clone() {
                     let corners = $corners(triangle);

@@ -57,8 +57,15 @@ impl Lanes {
     }
 }
 
-/// Points of numbers that lists are made of.
-pub trait Lane: Vector {
+/// Only the points below are [`Lane`]s: what it does is no one else's to define.
+mod sealed {
+    pub trait Sealed {}
+    impl Sealed for glam::DVec3 {}
+    impl Sealed for glam::Vec3 {}
+}
+
+/// Points of numbers that lists are made of: `DVec3` and `Vec3`.
+pub trait Lane: Vector + sealed::Sealed {
     /// [`divide`] with these instructions.
     #[doc(hidden)]
     fn divide(
@@ -69,7 +76,7 @@ pub trait Lane: Vector {
         n: usize,
     ) -> (usize, usize);
 
-    /// Call `pass(i, place)` for each ray of a list, by place,  and each triangle, with its place, whose edges let the ray
+    /// Call `pass(i, place)` for each ray of a list, by place, and each triangle, with its place, whose edges let the ray
     /// pass; or for all of them, where there are no instructions for many at once.
     #[doc(hidden)]
     fn sieve<'t>(

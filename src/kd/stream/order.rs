@@ -8,7 +8,7 @@ use crate::geom::{Aabb, Line, Real, Span, Vector};
 /// Bits of each coordinate's cell.
 const BITS: u32 = 5;
 
-/// Bits of a line's number below its place.
+/// Bits of a line's number below its place: what 64 leave.
 const NUMBER: u32 = 31;
 
 /// Cells as places: their bits, six apart.

@@ -11,6 +11,9 @@ use super::lanes::{Lane, Lanes};
 use super::lists::{Cut, Lists, room};
 use super::order::Order;
 
+/// Rays that go down together, so that the lists' memory is bounded: by 20 bytes of each in f64, 12 in f32, a level of the tree.
+const TOGETHER: usize = 1 << 20;
+
 /// The arenas of one thread, kept from one set of rays to the next.
 pub struct RayStreams<V: Lane> {
     /// Origin and reciprocal direction of the octant's rays, by axis.
@@ -55,7 +58,8 @@ impl<V: Lane> RayStreams<V> {
         }
     }
 
-    /// Trace rays; puts into `hits` what each hits, as [`Ask::trace`] does, and gives what they did together.
+    /// Trace rays of finite lines; puts into `hits` what each hits, as [`Ask::trace`] does, and gives what they did together. The more rays
+    /// the faster, up to a million.
     pub fn trace<T: Planes<Vector = V, Real = V::Real>>(
         &mut self,
         tree: &T,
@@ -67,6 +71,21 @@ impl<V: Lane> RayStreams<V> {
         self.work = Work::default();
         hits.clear();
         hits.resize(rays.len(), None);
+        let question = Question { tree, objects, ask };
+        for (rays, hits) in rays.chunks(TOGETHER).zip(hits.chunks_mut(TOGETHER)) {
+            self.together(&question, rays, hits);
+        }
+        self.work
+    }
+
+    /// Trace so many rays.
+    fn together<T: Planes<Vector = V, Real = V::Real>, O: Targets<Vector = V> + ?Sized>(
+        &mut self,
+        question: &Question<T, O>,
+        rays: &[Ray<V>],
+        hits: &mut [Option<Hit<V::Real>>],
+    ) {
+        let &Question { tree, objects, ask } = question;
         let world = tree.world();
         let mut order = Order::new(world);
         for (number, (ray, hit)) in rays.iter().zip(&mut *hits).enumerate() {
@@ -77,18 +96,16 @@ impl<V: Lane> RayStreams<V> {
                 order.add(number, &ray.line, span);
             }
         }
-        let question = Question { tree, objects, ask };
         for (octant, numbers) in order.octants() {
             // In a loop of its own, so that many of these rays are on their way from memory at a time.
             self.rays.clear();
             self.rays.extend(numbers.clone().map(|number| rays[number]));
             self.start(world);
-            self.descend(&question, (0, octant), 0, self.rays.len());
+            self.descend(question, (0, octant), 0, self.rays.len());
             for (number, found) in numbers.zip(&self.found) {
                 hits[number] = *found;
             }
         }
-        self.work
     }
 
     /// Make the octant's rays, which all meet the world, the list of the root.
@@ -160,6 +177,11 @@ impl<V: Lane> RayStreams<V> {
         let list = self.lists.lines(start, n);
         let (rays, limits, found) = (&self.rays, &mut self.limits, &mut self.found);
         let tests = &mut self.work.tests;
+        if ask == Ask::Any {
+            // Those that have ended test nothing; they are here if their spans begin at -infinity.
+            let ended = |&&number: &&u32| limits[number as usize] == V::Real::NEG_INFINITY;
+            *tests -= (list.iter().filter(ended).count() * in_leaf.len()) as u64;
+        }
         let mut test = |i: usize, place: usize| {
             let number = list[i] as usize;
             let limit = &mut limits[number];
