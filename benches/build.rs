@@ -31,6 +31,9 @@ fn main() {
     ]
     .map(|(strategy, clipped)| rules(strategy, "cost-gain", clipped));
 
+    let all = format!("{cores} cores over one, 10⁶");
+    let columns = ["10⁴, M/s", "10⁵, M/s", "10⁶, M/s", "exponent", &all];
+    let mut table = Table::new("build", &columns);
     // Seconds of each way in each pool, by size.
     let seconds = SIZES.map(|(size, rounds)| {
         let scene = Scene::load(&format!("simple:soup:{size}")).expect("a procedural scene");
@@ -47,12 +50,9 @@ fn main() {
             let [one, all] = pools.each_ref().map(|pool| make(&scene, way, pool));
             assert!(one == all, "the number of threads changes the tree");
         }
-        jobs.least(rounds)
+        jobs.least(rounds, &mut table)
     });
 
-    let all = format!("{cores} cores over one, 10⁶");
-    let columns = ["10⁴, M/s", "10⁵, M/s", "10⁶, M/s", "exponent", &all];
-    let mut table = Table::new("build", &columns);
     for (i, way) in ways.iter().enumerate() {
         let clipped = if way.clipped { ", clipped" } else { "" };
         let one = seconds.each_ref().map(|seconds| seconds[2 * i]);

@@ -75,7 +75,7 @@ fn rows(scene: &Scene, stop: &str, table: &mut Table) {
         let blocks = || count_lines(&tree, BLOCKS * BLOCK, |range| sampler.range(range), |_| {});
         jobs.add(move || pool.install(blocks));
     }
-    let seconds = jobs.least(ROUNDS);
+    let seconds = jobs.least(ROUNDS, table);
 
     let per_line = counts.visits() as f64 / BLOCK as f64;
     let nodes = tree.nodes.len();

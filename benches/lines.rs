@@ -45,7 +45,7 @@ fn against_counting(scene: &Scene, table: &mut Table) {
         buffer.extend(sampler.range(0..BLOCK));
         buffer.last().copied()
     });
-    let seconds = jobs.least(ROUNDS);
+    let seconds = jobs.least(ROUNDS, table);
     rows(
         "**making against counting**",
         [
@@ -78,7 +78,7 @@ fn samplers(scene: &Scene, table: &mut Table) {
             lines.fold(DVec3::ZERO, |sum, l| sum + l.origin + l.inverse)
         });
     }
-    let seconds = jobs.least(ROUNDS);
+    let seconds = jobs.least(ROUNDS, table);
     for (what, seconds) in ["points", "lines"]
         .into_iter()
         .zip(seconds.chunks(sets.len()))

@@ -312,6 +312,12 @@ fn runs_are_published_one_by_one() {
     }
     assert!(root.join("data/published/bench/count.md").is_file());
     assert!(root.join("data/published/bench/trace.md").is_file());
+    // The table of a benchmark that is no more goes.
+    fs::create_dir_all(root.join("benches")).unwrap();
+    fs::write(root.join("benches/count.rs"), "").unwrap();
+    publish(&["bench"]).code(0);
+    assert!(root.join("data/published/bench/count.md").is_file());
+    assert!(!root.join("data/published/bench/trace.md").exists());
 }
 
 #[test]

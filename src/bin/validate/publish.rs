@@ -33,6 +33,9 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
             if from.is_dir() {
                 copy(&from, &to)?;
             }
+            if name == BENCH && to.is_dir() {
+                drop_gone(root, &to)?;
+            }
         }
     }
     let readme = root.join("README.md");
@@ -63,6 +66,24 @@ fn remove(folder: &Path) -> Result<()> {
         }
         _ => Ok(()),
     }
+}
+
+/// Remove the tables of benchmarks that are no more: of a source that is neither in `benches` nor in that of a member.
+fn drop_gone(root: &Path, published: &Path) -> Result<()> {
+    let wrong = |path: &Path| format!("{}: cannot read", path.display());
+    let folders = ["benches", "peers/benches"].map(|folder| root.join(folder));
+    if !folders[0].is_dir() {
+        return Ok(());
+    }
+    for entry in fs::read_dir(published).with_context(|| wrong(published))? {
+        let path = entry.with_context(|| wrong(published))?.path();
+        let source = path.with_extension("rs");
+        let source = source.file_name().unwrap_or_default();
+        if !folders.iter().any(|folder| folder.join(source).is_file()) {
+            fs::remove_file(&path).with_context(|| format!("{}: cannot remove", path.display()))?;
+        }
+    }
+    Ok(())
 }
 
 /// The folder of benchmarks, a file each. It has no summary, and those that were not run again stay published.
