@@ -12,7 +12,8 @@ use sahlab::kd::{self, Ask, NarrowTree, Planes, Rules, Stack, Strategy};
 use crate::trial::Work;
 use crate::{Mesh, Peer, Ray, Tracer};
 
-const UNCLIPPED: &str = "sahlab-single-f64-unclipped";
+/// The plain loop in double precision through a tree that is not clipped, which everybody's hits are held against.
+pub const UNCLIPPED: &str = "sahlab-single-f64-unclipped";
 const BEST: &str = "sahlab-streams-f32";
 /// Counting, and making lines (`own_ways`).
 pub const STREAMS: &str = "sahlab-streams-f64";

@@ -8,7 +8,7 @@ use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
 
 use crate::ratio::Times;
-use crate::{Mesh, Peer, Ray, Tracer};
+use crate::{Mesh, Peer, Ray, Tracer, ours};
 
 /// What is measured.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -190,7 +190,7 @@ pub fn traces<'a>(built: &'a Built, scene: &str, rays: &'a [Ray]) -> [Plan<'a>; 
     })
 }
 
-/// How many rays have a nearest hit, or any, that differs from the first contestant's.
+/// How many rays have a nearest hit, or any, that differs from those of our plain loop ([`ours::UNCLIPPED`]).
 #[derive(Clone, Debug)]
 pub struct Disagreement {
     /// Who differs.
@@ -205,7 +205,11 @@ pub struct Disagreement {
     pub any: usize,
 }
 
-/// Compare everybody's hits of the rays that all are timed with with the first one's: t may differ by 1e-4 of itself and 1e-6 of the world's diagonal.
+/// Compare everybody's hits of the rays that all are timed with with those of our plain loop: t may differ by 1e-4 of itself and 1e-6 of
+/// the world's diagonal.
+///
+/// # Panics
+/// If our plain loop is not among them.
 pub fn compare(built: &Built, scene: &str, rays: &[Ray], mesh: &Mesh) -> Vec<Disagreement> {
     let slack = 1e-6 * (mesh.world.hi - mesh.world.lo).length() as f32;
     let same = |a: f32, b: f32| a == b || (a - b).abs() <= 1e-4 * a.abs() + slack;
@@ -216,27 +220,28 @@ pub fn compare(built: &Built, scene: &str, rays: &[Ray], mesh: &Mesh) -> Vec<Dis
         .copied()
         .collect();
     let rays = &rays[..];
-    let mut answers = built.iter().map(|(name, tracer)| {
+    let answer = |tracer: &RefCell<Box<dyn Tracer + '_>>| {
         let mut tracer = tracer.borrow_mut();
         let mut nearest = vec![0.0; rays.len()];
         let mut any = vec![false; rays.len()];
         tracer.nearest(rays, &mut nearest);
         tracer.any(rays, &mut any);
-        (name.clone(), nearest, any)
-    });
-    let Some((_, nearest, any)) = answers.next() else {
-        return Vec::new();
+        (nearest, any)
     };
-    let differing = answers.map(|(peer, its_nearest, its_any)| Disagreement {
-        peer,
-        scene: scene.into(),
-        rays: rays.len(),
-        nearest: nearest
-            .iter()
-            .zip(&its_nearest)
-            .filter(|(a, b)| !same(**a, **b))
-            .count(),
-        any: any.iter().zip(&its_any).filter(|(a, b)| a != b).count(),
+    let plain = built.iter().find(|(name, _)| name == ours::UNCLIPPED);
+    let (_, plain) = plain.expect("our plain loop is among them");
+    let (nearest, any) = answer(plain);
+    let others = built.iter().filter(|(name, _)| name != ours::UNCLIPPED);
+    let differing = others.map(|(peer, tracer)| {
+        let (its_nearest, its_any) = answer(tracer);
+        let unlike = nearest.iter().zip(&its_nearest);
+        Disagreement {
+            peer: peer.clone(),
+            scene: scene.into(),
+            rays: rays.len(),
+            nearest: unlike.filter(|(a, b)| !same(**a, **b)).count(),
+            any: any.iter().zip(&its_any).filter(|(a, b)| a != b).count(),
+        }
     });
     differing.collect()
 }
