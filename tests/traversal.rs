@@ -22,7 +22,7 @@ number = 2048
 pixels = 12
 cost = { c_k = 15.0, c_b = 0.0, c_t = 20.0 }
 timing = { rays = 600, work = 100_000, rounds = 2, builds = 2 }
-expect = { fall_backs = { f64 = 1e-3, f32 = 1e-2 } }
+expect = { fall_backs = { f64 = 1e-6, f32 = 1e-2 } }
 "#;
 
 fn rows<T: DeserializeOwned>(folder: &Path, name: &str) -> Vec<T> {
@@ -43,7 +43,7 @@ fn ways_stand_beside_the_stack() {
     assert!(before == contents(folder));
     // A scene without its seconds is measured again.
     fs::remove_file(folder.join("data/e/timings.csv")).unwrap();
-    run(&["--json"]);
+    run(&[]);
     assert!(before == contents(folder));
     for file in [
         "data/e/tables/traversal.md",
@@ -111,7 +111,10 @@ fn ways_stand_beside_the_stack() {
     // A row each for a set along a way, for the tree, and for links and face trees in both precisions.
     assert_eq!(times.len(), walks.len() + 3 * 5);
     let timed = |what: &str| times.iter().find(|r| r.what == what).unwrap();
-    assert_eq!(timed("lines:nearest f32 face-trees").units, 512);
+    let nearest = timed("lines:nearest f32 face-trees");
+    assert_eq!((nearest.units, nearest.timed_units), (2048, 512));
+    // One run of rays does not tell how they scatter.
+    assert_eq!(nearest.sampling_se_s, f64::INFINITY);
     assert_eq!(timed("build face-trees f32").units, 1);
     let summary = fs::read(folder.join("data/e/summary.json")).unwrap();
     let summary: Summary = serde_json::from_slice(&summary).unwrap();
@@ -129,7 +132,7 @@ fn ways_stand_beside_the_stack() {
 
 #[test]
 fn a_bound_that_does_not_hold_is_told() {
-    // Far from the origin planes tie in f32; more rays fall back than none.
+    // Of so many rays some meet two planes nearer together than f32 tells apart.
     let text = TRAVERSAL.replace("f32 = 1e-2", "f32 = 0.0");
     let text = text
         .replace("\"spd:balls:2\", \"spd:tetra:3\", ", "")
@@ -137,6 +140,54 @@ fn a_bound_that_does_not_hold_is_told() {
     let folder = folder(&text.replace("soup:200", "soup:2000"));
     let told = contains("MISSED  certain-f32");
     validate(folder.path()).assert().code(1).stdout(told);
+}
+
+#[test]
+fn quick_and_dry_runs_say_what_they_do() {
+    let quick = "[quick]\nscenes = [\"spd:tetra:3\"]\nnumber = 512\n";
+    let folder = folder(&format!("{TRAVERSAL}\n{quick}"));
+    let dry = validate(folder.path()).arg("--dry-run").assert().code(0);
+    for told in [
+        "rays lines, lines:nearest, primary: 2048 of each source, 13 x 13 of a picture",
+        "timed: 600 rays of each set, fewer above 100000 visits and tests, 2 times; builds 2 times",
+    ] {
+        let output = String::from_utf8_lossy(&dry.get_output().stdout).into_owned();
+        assert!(output.contains(told), "{output}");
+    }
+    assert!(!folder.path().join("data").exists());
+    validate(folder.path()).arg("--quick").assert().code(0);
+    let name = folder.path().join("data/e-quick/traversal.csv");
+    let mut reader = csv::Reader::from_path(name).unwrap();
+    let rows: Vec<TraversalRecord> = reader.deserialize().collect::<Result<_, _>>().unwrap();
+    assert!(rows.iter().all(|row| row.scene == "spd:tetra:3"));
+    let cast = |rays: &str| rows.iter().find(|row| row.rays == rays).map(|row| row.cast);
+    assert_eq!([cast("lines"), cast("primary")], [Some(512), Some(169)]);
+}
+
+#[test]
+fn a_scene_too_fine_for_single_precision_is_walked_in_double() {
+    let text = TRAVERSAL.replace(
+        "\"spd:balls:2\", \"spd:tetra:3\", \"simple:soup:200\"",
+        "\"far.obj\"",
+    );
+    let folder = folder(&text.replace(", \"primary\"", ""));
+    // A tetrahedron of side 1, so far out that neighbouring f32 numbers are 1/16 apart.
+    let corners = [
+        [0.0, 0.0, 0.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 1.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    let vertex = |[x, y, z]: [f64; 3]| format!("v {} {} {}\n", 1e6 + x, 1e6 + y, 1e6 + z);
+    let vertices: String = corners.map(vertex).concat();
+    let faces = "f 1 2 3\nf 1 2 4\nf 1 3 4\nf 2 3 4\n";
+    fs::write(folder.path().join("far.obj"), vertices + faces).unwrap();
+    let told = contains("single precision is too coarse here");
+    validate(folder.path()).assert().code(0).stderr(told);
+    let walks: Vec<TraversalRecord> = rows(folder.path(), "traversal.csv");
+    assert!(walks.iter().all(|row| row.precision == "f64") && walks.len() == 8);
+    let names = fs::read_to_string(folder.path().join("data/e/summary.json")).unwrap();
+    assert!(names.contains("certain-f64") && !names.contains("certain-f32"));
 }
 
 #[test]
@@ -152,7 +203,7 @@ fn wrong_experiments_are_refused() {
         ("pixels = 12", "pixels = 0", "e.toml:9", "must be 1 to"),
         ("rounds = 2", "rounds = 3", "e.toml:11", "must be even"),
         ("rays = 600", "rays = 0", "e.toml:11", "at least 1"),
-        ("f64 = 1e-3", "f64 = 1.5", "e.toml:12", "must be 0 to 1"),
+        ("f64 = 1e-6", "f64 = 1.5", "e.toml:12", "must be 0 to 1"),
         ("stop = ", "halt = ", "e.toml:6", "unknown field"),
         (
             "\"lines\", ",

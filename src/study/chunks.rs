@@ -2,10 +2,8 @@
 
 use std::ops::Range;
 
+use super::records::RUN;
 use super::timing::CHUNK;
-
-/// Rays that follow each other in what is timed: so many of them share caches as in the whole set.
-pub const RUN: usize = 512;
 
 /// The chunks of a set of so many rays that are timed: runs of rays in the middle of equal parts of the set, about `wanted` rays
 /// and at least one run.

@@ -118,7 +118,7 @@ impl Minima {
     }
 
     /// The least of each chunk.
-    fn least(&self) -> Vec<f64> {
+    pub fn least(&self) -> Vec<f64> {
         let [a, b] = &self.0;
         a.iter().zip(b).map(|(a, b)| a.min(*b)).collect()
     }
@@ -312,18 +312,30 @@ impl Pass<'_, '_> {
         if timed == all || drawn < 2.0 {
             return 0.0;
         }
-        let rate = least.iter().sum::<f64>() / timed as f64;
-        let residual = |(seconds, chunks): (&[f64], &[Range<usize>])| {
-            let rays: usize = chunks.iter().map(ExactSizeIterator::len).sum();
-            let off = seconds.iter().sum::<f64>() - rate * rays as f64;
-            off * off
-        };
-        let draws = least.chunks(together).zip(self.chunks.chunks(together));
-        let squares: f64 = draws.map(residual).sum();
+        let rays: Vec<f64> = self.chunks.iter().map(|chunk| chunk.len() as f64).collect();
         let population = self.timed.chunks.len().div_ceil(together) as f64;
         let left_out = (1.0 - drawn / population).max(0.0);
-        population * (squares / (drawn - 1.0) * left_out / drawn).sqrt()
+        population / drawn * left_out.sqrt() * scatter(least, &rays, together)
     }
+}
+
+/// Standard error of the sum of `own` as a multiple of that of `base`, over chunks of which so many at a time were drawn together,
+/// as if from endlessly many: the residuals of a ratio estimate. Infinite for less than two draws, which do not tell.
+pub fn scatter(own: &[f64], base: &[f64], together: usize) -> f64 {
+    let ratio = own.iter().sum::<f64>() / base.iter().sum::<f64>();
+    let residual = |(own, base): (&[f64], &[f64])| {
+        let off = own.iter().sum::<f64>() - ratio * base.iter().sum::<f64>();
+        off * off
+    };
+    let squares = own
+        .chunks(together)
+        .zip(base.chunks(together))
+        .map(residual);
+    let (squares, drawn) = squares.fold((0.0, 0.0), |(sum, n), square| (sum + square, n + 1.0));
+    if drawn < 2.0 {
+        return f64::INFINITY;
+    }
+    (squares * drawn / (drawn - 1.0)).sqrt()
 }
 
 /// Time the building of every tree, on one thread, in rounds of a fresh random order. Gives rows without the name of their

@@ -7,6 +7,9 @@ use statrs::distribution::{ContinuousCDF, StudentsT};
 /// Level of the interval of a geometric mean.
 const LEVEL: f64 = 0.99;
 
+/// Kinds of scenes below which it would be so wide that it tells nothing.
+const FEWEST: f64 = 3.0;
+
 /// Averages of ratios over scenes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Averages<'r> {
@@ -17,7 +20,7 @@ pub struct Averages<'r> {
     /// Geometric mean: twice as slow on one scene and twice as fast on another make 1.
     pub geometric: f64,
     /// Its 99 % interval: Student's t of the mean logarithm. The sizes of one scene are like each other, so together they are
-    /// one observation. None for less than two.
+    /// one observation. None for less than three of these.
     pub interval: Option<[f64; 2]>,
     /// Median.
     pub median: f64,
@@ -67,6 +70,9 @@ fn half_width(ratios: &[(&str, f64)], logs: &[f64], mean: f64) -> Option<f64> {
         *families.entry(family(scene)).or_default() += log - mean;
     }
     let (n, c) = (logs.len() as f64, families.len() as f64);
+    if c < FEWEST {
+        return None;
+    }
     let law = StudentsT::new(0.0, 1.0, c - 1.0).ok()?;
     let squares: f64 = families.values().map(|sum| sum * sum).sum();
     let se = (c / (c - 1.0) * squares).sqrt() / n;
@@ -99,11 +105,15 @@ mod tests {
             ("spd:a:2", 2.0),
             ("spd:b:1", 8.0),
             ("spd:b:2", 8.0),
+            ("spd:c:1", 4.0),
+            ("spd:c:2", 4.0),
         ];
         let [lo, hi] = Averages::of(&ratios).unwrap().interval.unwrap();
-        // As two observations, 1 and 3 to base 2: mean 2, standard error 1, t of one degree at 99 % 63.657.
-        assert!((lo.log2() - (2.0 - 63.6567)).abs() < 1e-3, "{lo}");
-        assert!((hi.log2() - (2.0 + 63.6567)).abs() < 1e-3, "{hi}");
+        // As three observations, 1, 3 and 2 to base 2: mean 2, standard error the root of 1/3, t of two degrees at 99 % 9.9248.
+        let half = 9.924_843 * (1.0_f64 / 3.0).sqrt();
+        assert!((lo.log2() - (2.0 - half)).abs() < 1e-5, "{lo}");
+        assert!((hi.log2() - (2.0 + half)).abs() < 1e-5, "{hi}");
+        assert_eq!(Averages::of(&ratios[..4]).unwrap().interval, None);
         let one = [("spd:a:1", 2.0), ("spd:a:2", 4.0)];
         assert_eq!(Averages::of(&one).unwrap().interval, None);
         assert_eq!(family("models/a.obj"), "models/a.obj");
@@ -115,7 +125,7 @@ mod tests {
         assert_eq!(Averages::of(&[]), None);
         let one = Averages::of(&[("a", 2.0)]).unwrap();
         assert_eq!((one.median, one.interval), (2.0, None));
-        let equal = Averages::of(&[("a", 1.0), ("b", 1.0)]).unwrap();
+        let equal = Averages::of(&[("a", 1.0), ("b", 1.0), ("c", 1.0)]).unwrap();
         assert_eq!(equal.interval, Some([1.0, 1.0]));
     }
 }

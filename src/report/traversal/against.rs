@@ -1,9 +1,11 @@
-//! Ways beside the stack: what they save, and whether that is more than the seconds can tell.
+//! Ways beside the stack: what they save, and whether the seconds can tell it.
+
+use statrs::distribution::{ContinuousCDF, StudentsT};
 
 use super::Traversal;
 use crate::report::series::distinct;
 use crate::report::strategies::averages::Averages;
-use crate::study::records::{LinkRecord, PassTiming, TraversalRecord};
+use crate::study::records::{LinkRecord, PassTiming, RUN, TraversalRecord};
 
 /// The way that all others are held against.
 pub const STACK: &str = "stack";
@@ -12,8 +14,14 @@ pub const WAYS: [&str; 3] = ["links", "face-trees", "restart"];
 /// Both precisions.
 pub const PRECISIONS: [&str; 2] = ["f64", "f32"];
 
-/// Ratios of seconds are told apart from 1 if they are further from it than this and than their own halves from each other.
-pub const NOISE: f64 = 0.01;
+/// The name of times of building a tree, and the beginning of those of building what ways need.
+pub const BUILD: &str = "build";
+
+/// What shifts all rays of a pass alike, such as where its data lie in memory, is no less than this.
+const NOISE: f64 = 0.01;
+
+/// Chance that the scatter of rays makes any of a run's ratios look faster or slower that is not.
+const FALSE_ALARMS: f64 = 0.01;
 
 /// What the seconds say of a way.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,8 +30,8 @@ pub enum Speed {
     Faster,
     /// Slower.
     Slower,
-    /// Neither, as far as the seconds can tell.
-    Even,
+    /// The seconds cannot tell.
+    Undecided,
 }
 
 /// A set of rays along one way beside the same along the stack, in one precision.
@@ -33,6 +41,8 @@ pub struct Against<'r> {
     pub own: &'r TraversalRecord,
     /// The stack's row.
     pub stack: &'r TraversalRecord,
+    /// Ratios of the run, all of which are judged.
+    judged: usize,
     times: Option<[&'r PassTiming; 2]>,
 }
 
@@ -49,13 +59,20 @@ impl<'r> Against<'r> {
         positive(own.seconds / stack.seconds)
     }
 
-    /// How far the ratio of the seconds can be believed: as far as those of the even and of the odd rounds are apart, over the
-    /// smaller, at least [`NOISE`].
+    /// How far the ratio of the seconds can be believed, over the ratio: half of its interval, by the scatter of runs of rays (Student's
+    /// t; all of a run hold together with 1 - [`FALSE_ALARMS`], Bonferroni), and on top of it what shifts a pass as a whole: as far as
+    /// the ratios of the even and of the odd rounds are apart, at least [`NOISE`]. Infinite for less than two runs of rays.
     pub fn error(&self) -> Option<f64> {
         let [own, stack] = self.times?;
         let a = positive(own.half_a_s / stack.half_a_s)?;
         let b = positive(own.half_b_s / stack.half_b_s)?;
-        Some(((a - b).abs() / a.min(b)).max(NOISE))
+        let shift = ((a - b).abs() / a.min(b)).max(NOISE);
+        let draws = own.timed_units.div_ceil(RUN as u64);
+        let Ok(law) = StudentsT::new(0.0, 1.0, draws as f64 - 1.0) else {
+            return Some(f64::INFINITY);
+        };
+        let t = law.inverse_cdf(1.0 - 0.5 * FALSE_ALARMS / self.judged as f64);
+        Some(t * own.sampling_se_s / own.seconds + shift)
     }
 
     /// What the seconds say.
@@ -66,7 +83,7 @@ impl<'r> Against<'r> {
         } else if ratio > certain {
             Speed::Slower
         } else {
-            Speed::Even
+            Speed::Undecided
         })
     }
 
@@ -103,9 +120,11 @@ impl Traversal {
     /// A row beside the stack's.
     pub fn against<'r>(&'r self, own: &'r TraversalRecord) -> Option<Against<'r>> {
         let stack = self.beside(own, STACK)?;
+        let judged = self.walks.iter().filter(|row| row.way != STACK).count();
         Some(Against {
             own,
             stack,
+            judged,
             times: self.time_of(own).zip(self.time_of(stack)).map(Into::into),
         })
     }
@@ -116,6 +135,42 @@ impl Traversal {
             (row.rays.as_str(), row.precision.as_str(), row.way.as_str()) == (rays, precision, way)
         });
         own.filter_map(|row| self.against(row)).collect()
+    }
+
+    /// Seconds of a way in single precision over those in double, by scene; the stack too is a way here.
+    pub fn narrow_over_wide(&self, rays: &str, way: &str) -> Vec<(&str, f64)> {
+        let of = |precision: &'static str| {
+            let rows = self.walks.iter().filter(move |row| {
+                (row.rays.as_str(), row.precision.as_str(), row.way.as_str())
+                    == (rays, precision, way)
+            });
+            rows.filter_map(|row| Some((row, self.time_of(row)?.seconds)))
+        };
+        let [wide, narrow] = PRECISIONS.map(of);
+        let wide: Vec<_> = wide.collect();
+        let ratio = |(row, seconds): (&'_ TraversalRecord, f64)| {
+            let (_, other) = wide.iter().find(|(other, _)| other.cell == row.cell)?;
+            positive(seconds / other)
+        };
+        narrow
+            .filter_map(|(row, seconds)| Some((row.scene.as_str(), ratio((row, seconds))?)))
+            .collect()
+    }
+
+    /// Every ratio of seconds at which a way is faster than the stack.
+    pub fn faster(&self) -> Vec<Against<'_>> {
+        let all = self.walks.iter().filter_map(|row| self.against(row));
+        all.filter(|row| row.speed() == Some(Speed::Faster))
+            .collect()
+    }
+
+    /// How many ratios of seconds there are.
+    pub fn ratios(&self) -> u64 {
+        let known = |row: &&TraversalRecord| {
+            let against = self.against(row).filter(|row| row.own.way != STACK);
+            against.is_some_and(|row| row.seconds().is_some())
+        };
+        self.walks.iter().filter(known).count() as u64
     }
 
     /// The tree of a row, in its precision.
@@ -140,10 +195,10 @@ impl Traversal {
     /// that both are built.
     pub fn building(&self, row: &LinkRecord, way: &str) -> Option<f64> {
         let seconds = |what: &str| {
-            let what = format!("build {what} {}", row.precision);
+            let what = format!("{BUILD} {what} {}", row.precision);
             Some(self.timing(&row.cell, &what)?.seconds)
         };
-        let tree = self.timing(&row.cell, "build")?.seconds;
+        let tree = self.timing(&row.cell, BUILD)?.seconds;
         let links = seconds("links")?;
         match way {
             "links" => positive(links / tree),
@@ -183,8 +238,8 @@ pub fn averages<'r>(
     Averages::of(&ratios)
 }
 
-/// How many are faster, slower and neither.
+/// How many are faster, slower and undecided.
 pub fn outcomes(rows: &[Against<'_>]) -> [u64; 3] {
     let number = |speed| rows.iter().filter(|row| row.speed() == Some(speed)).count() as u64;
-    [Speed::Faster, Speed::Slower, Speed::Even].map(number)
+    [Speed::Faster, Speed::Slower, Speed::Undecided].map(number)
 }

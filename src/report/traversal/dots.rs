@@ -9,7 +9,6 @@ use crate::report::grid::{page, page_name, part};
 use crate::report::legend::Key;
 use crate::report::palette::{GRID, INK, Look, faded};
 use crate::report::panel::{Frame, Panel};
-use crate::report::series::distinct;
 use crate::report::strategies::averages::{Averages, family};
 use crate::report::text::{MEDIUM, fit, text_width};
 use crate::study::records::Summary;
@@ -38,9 +37,6 @@ pub struct Dots<'r> {
     /// Its marks.
     pub series: Vec<Series<'r>>,
 }
-
-/// Kinds of scenes below which an interval is so wide that it tells nothing.
-const FEWEST: usize = 3;
 
 /// A way looks the same in every figure.
 pub fn look(way: usize) -> Look {
@@ -201,8 +197,7 @@ impl Rows<'_> {
             }
             let Some(averages) = averages else { continue };
             let middle = 0.5 * (self.bottom() + frame.bottom) + PITCH * beside;
-            let kinds = distinct(ratios.iter().map(|(scene, _)| family(scene)));
-            if let Some([lo, hi]) = averages.interval.filter(|_| kinds.len() >= FEWEST) {
+            if let Some([lo, hi]) = averages.interval {
                 panel.line(&[(lo, -middle), (hi, -middle)], faded(colour, 0.75), 0.9);
             }
             mark(&panel, averages.geometric, middle);

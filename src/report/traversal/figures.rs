@@ -1,11 +1,13 @@
 //! Figures of dots: inner nodes and memory, which follow from counts, and seconds.
 
 use super::Traversal;
-use super::against::{Against, PRECISIONS, WAYS, memory};
+use super::against::{Against, BUILD, PRECISIONS, WAYS, memory};
 use super::dots::{Dots, Series, figures};
 use crate::report::Figure;
+use crate::report::axis::extent;
 use crate::report::number::{counted, grouped};
-use crate::study::records::{Summary, TraversalRecord};
+use crate::report::series::distinct;
+use crate::study::records::{PassTiming, Summary, TraversalRecord};
 
 /// What a set of rays is, as the heading of its panel.
 fn heading(number: usize, rays: &str) -> String {
@@ -125,7 +127,8 @@ pub fn seconds(run: &Traversal, summary: &Summary) -> Vec<(String, Figure)> {
     let panels = panels(run, "seconds, relative", Against::seconds);
     let caption = format!(
         "Seconds of a ray over those with a stack in the same tree and precision: left of 1 the stack loses. On one thread, all ways \
-         interleaved, of each chunk of rays the least of all rounds.{} Bars, of three kinds of scenes or more: 99 % intervals of geometric means, cut at the edges.{} {}",
+         interleaved, of each chunk of rays the least of all rounds.{}{} Bars, of three kinds of scenes or more: 99 % intervals of geometric means, cut at the edges.{} {}",
+        sample(run),
         disturbed(run),
         left_out(run),
         provenance(run, summary)
@@ -140,13 +143,52 @@ pub fn seconds(run: &Traversal, summary: &Summary) -> Vec<(String, Figure)> {
     )
 }
 
-/// How many of the times were disturbed.
+/// How far a ratio of seconds can be believed.
+pub const BELIEF: &str = "half of its interval by the scatter of runs of 512 rays (Student's t, all ratios of the run together 99 %), and the ratios by even and by \
+     odd rounds being apart, at least 1 %";
+
+/// How many of the times of rays were disturbed.
 pub fn disturbed(run: &Traversal) -> String {
-    let times = run.walks.iter().filter_map(|row| run.time_of(row));
+    told(run.walks.iter().filter_map(|row| run.time_of(row)), "time")
+}
+
+/// How many of the times of builds were.
+pub fn disturbed_builds(run: &Traversal) -> String {
+    let cells: Vec<&str> = distinct(run.links.iter().map(|row| row.cell.as_str()));
+    let what = PRECISIONS.map(|p| {
+        [
+            format!("{BUILD} links {p}"),
+            format!("{BUILD} face-trees {p}"),
+        ]
+    });
+    let what: Vec<String> = what
+        .into_iter()
+        .flatten()
+        .chain([BUILD.to_owned()])
+        .collect();
+    let of_tree = |cell| what.iter().filter_map(move |what| run.timing(cell, what));
+    told(cells.into_iter().flat_map(of_tree), "build")
+}
+
+fn told<'r>(times: impl Iterator<Item = &'r PassTiming> + Clone, noun: &str) -> String {
     let disturbed = times.clone().filter(|time| time.disturbed).count() as u64;
     format!(
         " Disturbed, halves over 3 % apart: {} of {}.",
         grouped(disturbed),
-        counted(times.count() as u64, "time")
+        counted(times.count() as u64, noun)
     )
+}
+
+/// How many rays of a set were timed, where not all were.
+pub fn sample(run: &Traversal) -> String {
+    let times = || run.walks.iter().filter_map(|row| run.time_of(row));
+    let ends = extent(times().map(|time| time.timed_units as f64));
+    match ends {
+        Some((least, most)) if times().any(|time| time.timed_units < time.units) => format!(
+            " Timed: {} to {} rays of each set, spread over it.",
+            grouped(least as u64),
+            grouped(most as u64)
+        ),
+        _ => String::new(),
+    }
 }

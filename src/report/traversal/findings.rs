@@ -4,17 +4,21 @@ use std::fmt::Write;
 
 use super::Traversal;
 use super::against::{Against, PRECISIONS, WAYS, averages, memory as factor, outcomes};
-use crate::report::number::{counted, fixed, grouped, significant};
+use super::figures::{BELIEF, disturbed, disturbed_builds, sample};
+use crate::report::number::{counted, grouped, significant};
+use crate::report::series::distinct;
 use crate::report::strategies::averages::Averages;
 use crate::report::text::capitalised;
+use crate::study::records::TraversalRecord;
 
 /// The findings, as a list.
 pub fn text(run: &Traversal) -> String {
     let mut text = String::from(
         "Each way beside the stack in the same tree and precision: geometric means of the ratios over scenes, with their 99 % intervals \
-         (Student's t of the logarithms, the sizes of one scene together being one observation) and their ends. Faster or slower: \
-         the ratio of seconds is further from 1 than the ratios by even and by odd rounds are from each other, and than 1 %.\n\n",
+         (three kinds of scenes or more; Student's t of the logarithms, the sizes of one scene together being one observation) and their \
+         ends. Faster or slower: the ratio of seconds is further from 1 than it can be off: ",
     );
+    let _ = writeln!(text, "{BELIEF}.\n");
     for line in all(run) {
         let _ = writeln!(text, "- {line}");
     }
@@ -41,6 +45,7 @@ pub fn all(run: &Traversal) -> Vec<String> {
     all.extend(memory(run));
     all.extend(building(run));
     all.extend(where_they_pay(run));
+    all.extend(fall_backs(run));
     all.extend(disturbances(run));
     all
 }
@@ -68,10 +73,10 @@ fn of(precision: &str, rows: &[Against]) -> Option<String> {
         significant(inner.geometric, 3)
     );
     if let Some(seconds) = averages(rows, Against::seconds) {
-        let [faster, slower, even] = outcomes(rows);
+        let [faster, slower, undecided] = outcomes(rows);
         let _ = write!(
             text,
-            ", {}; faster on {faster} of {}, slower on {slower}, neither on {even}",
+            ", {}; faster on {faster} of {}, slower on {slower}, undecided on {undecided}",
             times(&seconds, "its seconds"),
             counted(seconds.scenes as u64, "scene")
         );
@@ -161,18 +166,51 @@ fn parts(key: &str, mut rows: Vec<(f64, Against)>) -> Option<String> {
     Some(format!("by {key}. {}", parts.join("; ")))
 }
 
+/// Who falls back on the stack, and how many of them meet thin leaves.
+fn fall_backs(run: &Traversal) -> Vec<String> {
+    let of_set = |rays: &str, precision: &str| {
+        let rows: Vec<&TraversalRecord> = WAYS
+            .iter()
+            .flat_map(|way| run.of(rays, precision, way))
+            .map(|row| row.own)
+            .collect();
+        let sum = |of: fn(&TraversalRecord) -> u64| rows.iter().map(|row| of(row)).sum::<u64>();
+        let others = |row: &TraversalRecord| row.fall_backs - row.thin_fall_backs;
+        let on: Vec<&str> = distinct(
+            rows.iter()
+                .filter(|row| others(row) > 0)
+                .map(|row| row.scene.as_str()),
+        );
+        let on = match on.len() {
+            0 => String::new(),
+            _ => format!(", on {}", on.join(", ")),
+        };
+        (!rows.is_empty()).then(|| {
+            format!(
+                "Fall-backs, {rays}, {precision}. {} of {} rays along the three ways; {} that meet a leaf thinner than 12 ulp of the root's \
+                 longest side, {} others{on}.",
+                grouped(sum(|row| row.fall_backs)),
+                grouped(sum(|row| row.cast)),
+                grouped(sum(|row| row.thin_fall_backs)),
+                grouped(sum(others)),
+            )
+        })
+    };
+    let sets = run.sets().into_iter();
+    sets.flat_map(|rays| PRECISIONS.map(|precision| of_set(rays, precision)))
+        .flatten()
+        .collect()
+}
+
 /// How far the seconds can be believed.
 fn disturbances(run: &Traversal) -> Option<String> {
-    let times = || run.walks.iter().filter_map(|row| run.time_of(row));
-    let disturbed = times().filter(|time| time.disturbed).count() as u64;
-    let number = times().count() as u64;
-    (number > 0).then(|| {
-        let share = 100.0 * disturbed as f64 / number as f64;
+    let timed = run.walks.iter().any(|row| run.time_of(row).is_some());
+    timed.then(|| {
         format!(
-            "Of {}, {} have halves more than 3 % apart ({} %).",
-            counted(number, "time"),
-            grouped(disturbed),
-            fixed(share, 0)
+            "Rays.{}{} Builds.{}",
+            sample(run),
+            disturbed(run),
+            disturbed_builds(run)
         )
     })
 }

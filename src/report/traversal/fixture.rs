@@ -30,6 +30,7 @@ fn walk(scene: &str, rays: &str, precision: &str, way: &str, inner: u64) -> Trav
         object_tests: tests,
         links: if way == STACK { 0 } else { 4000 },
         fall_backs: u64::from(way != STACK && precision == "f32"),
+        thin_fall_backs: 0,
         differing_hits: tests.map(|_| 0),
         differing_leaves: 0,
         broken: 0,

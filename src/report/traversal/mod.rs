@@ -65,6 +65,8 @@ impl Traversal {
             all.extend([
                 ("times-traversal", tables::times(self)),
                 ("times-traversal-summary", tables::times_summary(self)),
+                ("times-pays", tables::times_pays(self)),
+                ("times-precision", tables::times_precision(self)),
                 ("times-links", tables::times_links(self)),
             ]);
         }

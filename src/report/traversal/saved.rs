@@ -4,7 +4,7 @@
 use super::Traversal;
 use super::against::{Against, PRECISIONS, STACK, WAYS, bytes};
 use super::dots::{keys, look};
-use super::figures::{left_out, provenance};
+use super::figures::{disturbed, left_out, provenance, sample};
 use crate::report::Figure;
 use crate::report::axis::{Axis, extent};
 use crate::report::figure::Pen;
@@ -97,7 +97,9 @@ pub fn figure(run: &Traversal, summary: &Summary) -> Option<Figure> {
     let caption = format!(
         "Each mark a tree: seconds of a ray over those with a {STACK}, against inner nodes over those with a {STACK}, and against the bytes \
          of the tree and what the way needs beside it. Dashed: seconds in proportion to inner nodes. Below 1 time is saved, left of 1 inner \
-         nodes are.{} {}",
+         nodes are.{}{}{} {}",
+        sample(run),
+        disturbed(run),
         left_out(run),
         provenance(run, summary)
     );

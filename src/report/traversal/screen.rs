@@ -22,7 +22,7 @@ fn ways(run: &Traversal) -> Table {
             Column::right(&title("inner"), &title("inner")),
             Column::right("time", &title("seconds")),
             Column::right("least–most", &title("ends")),
-            Column::right("+ / − / =", &title("outcomes")),
+            Column::right("+ / − / ?", &title("outcomes")),
         ]);
     }
     let row = |rays: &str, way: &str| {
@@ -50,7 +50,7 @@ fn ways(run: &Traversal) -> Table {
         .flat_map(|rays| WAYS.iter().map(move |way| row(rays, way)));
     Table {
         caption: "Each way beside the stack: inner nodes and seconds over its own (geometric means over scenes), least and most seconds, and \
-                  on how many scenes it is faster (+), slower (−) or neither by more than the error of the seconds (=)."
+                  on how many scenes it is faster (+), slower (−) or the seconds cannot tell (?)."
             .to_owned(),
         columns,
         keys: 2,

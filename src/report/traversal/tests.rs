@@ -30,7 +30,12 @@ fn a_way_is_faster_where_the_seconds_can_tell() {
     let rows = run.of("lines", "f64", "links");
     let speeds: Vec<_> = rows.iter().map(|row| row.speed().unwrap()).collect();
     // Four times as long, but its odd rounds took nine times as long as the even ones.
-    let wanted = [Speed::Faster, Speed::Even, Speed::Slower, Speed::Even];
+    let wanted = [
+        Speed::Faster,
+        Speed::Undecided,
+        Speed::Slower,
+        Speed::Undecided,
+    ];
     assert_eq!(speeds, wanted);
     assert_eq!(outcomes(&rows), [1, 1, 2]);
     assert!(rows[3].disturbed() && !rows[0].disturbed());
@@ -38,6 +43,19 @@ fn a_way_is_faster_where_the_seconds_can_tell() {
     let rows = run.of("lines", "f64", "face-trees");
     assert_eq!(outcomes(&rows), [0, 0, 4]);
     assert!((rows[0].error().unwrap() - 0.01).abs() < 1e-12);
+    // Two runs of rays, 39 ratios: Student's t of one degree at 1 - 0.005/39, cot(pi 0.005/39), is 2483 standard errors.
+    assert_eq!(run.ratios(), 39);
+    let mut uncertain = traversal();
+    for row in &mut uncertain.timings {
+        row.sampling_se_s = 1e-3 * row.seconds;
+    }
+    let rows = uncertain.of("lines", "f64", "links");
+    assert!((rows[0].error().unwrap() - (2.4828 + 0.01)).abs() < 1e-3);
+    assert_eq!(outcomes(&rows), [0, 0, 4]);
+    // One run does not tell.
+    let mut few = traversal();
+    few.timings.iter_mut().for_each(|row| row.timed_units = 512);
+    assert_eq!(outcomes(&few.of("lines", "f64", "links")), [0, 0, 4]);
 }
 
 #[test]
@@ -45,23 +63,40 @@ fn means_are_geometric() {
     let run = traversal();
     let times = tables::times_summary(&run);
     let links = numbers(row(&times, &["lines", "f64", "links"]));
-    // Scenes, inner nodes, then seconds: the fourth root of 1/2 · 1 · 2 · 4; faster, slower, even.
+    // Scenes, inner nodes, then seconds: the fourth root of 1/2 · 1 · 2 · 4, its interval, least, most; faster, slower, undecided.
     let mean = LINKS.iter().product::<f64>().sqrt().sqrt();
     let wanted = [4.0, 0.5, mean, 0.5, 4.0, 1.0, 1.0, 2.0];
-    assert!(links.iter().zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12));
-    assert_eq!(links.len(), wanted.len());
-    let one = numbers(row(&times, &["lines:nearest", "f32", "links"]));
-    assert_eq!(one[..3], [1.0, 0.5, 0.5]);
+    assert_eq!(links.len(), wanted.len() + 2);
+    let (lo, hi) = (links[3], links[4]);
+    assert!(lo < mean && (lo * hi / (mean * mean) - 1.0).abs() < 1e-12);
+    let but_interval = links[..3].iter().chain(&links[5..]);
+    assert!(but_interval.zip(wanted).all(|(a, b)| (a - b).abs() < 1e-12));
+    // Only the first scene is in f32: it stands in f64 alone too, and has no interval.
+    for precision in ["f64 of those in f32", "f32"] {
+        let one = numbers(row(&times, &["lines:nearest", precision, "links"]));
+        assert_eq!(one, [1.0, 0.5, 0.5, 0.5, 0.5, 1.0, 0.0, 0.0]);
+    }
+    let precision = numbers(row(&tables::times_precision(&run), &["lines", "links"]));
+    assert_eq!(precision[..2], [4.0, 1.0]);
+    let pays = tables::times_pays(&run);
+    assert!(
+        pays.caption.contains(": 4 of 39 ratios"),
+        "{}",
+        pays.caption
+    );
+    assert_eq!(pays.rows.len(), 4);
 
     let steps = tables::steps_summary(&run);
     let restart = numbers(row(&steps, &["lines", "f32", "restart"]));
-    // Scenes, leaves of a ray, inner nodes thrice; no links; rays that fell back, of how many, the largest share in per cent.
-    assert_eq!(restart[..5], [4.0, 5.0, 2.0, 2.0, 2.0].map(|v: f64| v));
-    assert_eq!(restart[5..], [4.0, 4000.0, 0.1]);
+    // Scenes, leaves of a ray, inner nodes, their interval, least and most; no links; rays that fell back, in thin leaves, of how many,
+    // the largest share in per cent.
+    assert_eq!(restart[..7], [4.0, 5.0, 2.0, 2.0, 2.0, 2.0, 2.0]);
+    assert_eq!(restart[7..], [4.0, 0.0, 4000.0, 0.1]);
 
     let memory = tables::memory_summary(&run);
     let faces = numbers(row(&memory, &["f64", "face-trees"]));
     assert!((faces[2] - 4.0).abs() < 1e-3, "{faces:?}");
+    assert_eq!(faces.len(), 2 + 5);
     let built = numbers(row(&tables::times_links(&run), &["spd:tree:8", "f64"]));
     assert!((built[5] - 0.4).abs() < 1e-12, "{built:?}");
 }
@@ -87,7 +122,7 @@ fn findings_are_made_from_the_numbers() {
     let text = findings::text(&traversal());
     for sentence in [
         "- Links, lines. f64: 0.500 times the stack's inner nodes, 1.41 times its seconds (",
-        "least 0.500 on spd:balls:3, most 4.00 on spd:balls:4); faster on 1 of 4 scenes, slower on 1, neither on 2. f32: ",
+        "; least 0.500 on spd:balls:3, most 4.00 on spd:balls:4); faster on 1 of 4 scenes, slower on 1, undecided on 2. f32: ",
         "f32: 0.500 times the stack's inner nodes, 0.500 times its seconds (least 0.500 on spd:balls:3, most 0.500 on spd:balls:3); \
          faster on 1 of 1 scene",
         "- Memory, f64. Tree and links: 3.00 times the bytes of the tree alone",
@@ -163,6 +198,6 @@ fn seconds_are_in_files_of_their_own() {
     let mut slow = traversal();
     slow.timings.iter_mut().for_each(|row| row.seconds *= 3.0);
     let (files, before) = written(traversal());
-    assert_eq!(files, 1 + 8 * 3 + 3 * 2);
+    assert_eq!(files, 1 + 10 * 3 + 3 * 2);
     assert!(before == written(slow).1);
 }

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use crate::kd::{Rules, Tree, predict};
 use crate::scene::Scene;
-use crate::study::chunks::{RUN, spread};
+use crate::study::chunks::spread;
 use crate::study::hits::cell::{CellPlan, compare, plant};
 use crate::study::identity::{digest, whole};
 use crate::study::ray_sets::{Number, Rays, gather};
-use crate::study::records::{CellRecord, PassTiming, StepRecord, WorkRecord};
+use crate::study::records::{CellRecord, PassTiming, RUN, StepRecord, WorkRecord};
 use crate::study::store::Store;
 use crate::study::timing::{CHUNK, Pass, Timed, blank, trace_times};
 use crate::study::{Plan, RunError, Watcher, timing, work};

@@ -30,7 +30,7 @@ pub use speed::{
 };
 pub use split_cost::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord};
 pub use stability::{CaseRecord, MetamorphicRecord, RandomRecord, TieRecord};
-pub use strategies::{OutlineRecord, PassTiming, RayRecord, SliceRecord};
+pub use strategies::{OutlineRecord, PassTiming, RUN, RayRecord, SliceRecord};
 
 pub use trace::{HitRecord, TraceRecord};
 pub use traversal::{LinkRecord, TraversalRecord};

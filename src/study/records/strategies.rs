@@ -28,8 +28,12 @@ pub struct RayRecord {
     pub object_tests: u64,
 }
 
+/// Rays that follow each other in what kinds `cost-vs-work` and `traversal` time: so many of them share caches as in the whole set, and
+/// are one draw of the sample.
+pub const RUN: usize = 512;
+
 /// Seconds of one thing done with one tree, on one thread. A row of `timings.csv` of a run of kind `strategies`,
-/// `cost-vs-work` or `speed-vs-error`.
+/// `cost-vs-work`, `speed-vs-error` or `traversal`.
 ///
 /// Every round goes over all trees of the scene in a fresh order. Of each chunk of rays the least time of all rounds
 /// counts; a pass that would take too long is timed on a random sample of chunks and scaled.
@@ -57,7 +61,8 @@ pub struct PassTiming {
     pub pass_s: f64,
     /// Seconds for all units.
     pub seconds: f64,
-    /// Standard error of `seconds` from the choice of the sample; 0 where all units were timed.
+    /// Standard error of `seconds` from the choice of the sample; 0 where all units were timed. Of kind `traversal` from the scatter of
+    /// runs of rays about their mean, of ways without a stack about their ratio to the stack's seconds: as if from endlessly many rays.
     pub sampling_se_s: f64,
     /// The same from the even rounds alone.
     pub half_a_s: f64,

@@ -38,7 +38,9 @@ pub struct TraversalRecord {
     pub links: u64,
     /// Rays whose next leaf was not certain, as planes tie: finished with a stack.
     pub fall_backs: u64,
-    /// Rays whose nearest hit is not that by the stack, bit for bit; empty where nothing is tested.
+    /// Of these, rays that meet one of the tree's `thin_leaves`.
+    pub thin_fall_backs: u64,
+    /// Rays whose nearest hit is not that by the stack, to the last bit; empty where nothing is tested.
     pub differing_hits: Option<u64>,
     /// Rays, but for fall-backs, whose leaves or their order are not those by the stack.
     pub differing_leaves: u64,

@@ -45,7 +45,8 @@ pub struct Timing {
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
-    /// Share of the rays of sources that a walk without a stack gives up, at most.
+    /// Share of the rays of each source that each walk without a stack gives up, at most; rays that meet a leaf too thin for its
+    /// planes to be told apart do not count.
     pub fall_backs: Shares,
 }
 

@@ -132,13 +132,22 @@ pub(super) fn describe(plan: &Plan, asked: &Traversal, scenes: &[Scene]) -> Stri
     };
     let cells = cells(plan, asked, scenes).into_iter();
     let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
+    let asked::Timing {
+        rays,
+        work,
+        rounds,
+        builds,
+    } = asked.timing;
+    let pixels = asked.pixels + 1;
     format!(
-        "strategy {}, stop {}, seed {}\n{}rays {}, ways {}, in f64 and f32\n",
+        "strategy {}, stop {}, seed {}\n{}rays {}: {} of each source, {pixels} x {pixels} of a picture\nways {}, in f64 and f32\n\
+         timed: {rays} rays of each set, fewer above {work} visits and tests, {rounds} times; builds {builds} times\n",
         asked.strategy,
         asked.stop,
         plan.seed,
         cells.map(line).collect::<String>(),
         sets.join(", "),
+        asked.number,
         Way::ALL.map(Way::name).join(", ")
     )
 }

@@ -7,15 +7,15 @@ use crate::kd::narrow::{NarrowTree, Refusal, narrow_line, narrow_triangles};
 use crate::kd::{Ask, NodeKind, Planes, Stack, Tree};
 use crate::scene::Scene;
 use crate::study::chunks::spread;
-use crate::study::hits::cell::{build_tree, plant};
+use crate::study::hits::cell::{build_tree, on_one_thread, plant};
 use crate::study::ray_sets::{Number, Rays, RaysOf, gather};
 use crate::study::records::{LinkRecord, PassTiming, TraversalRecord};
 use crate::study::timing::BUILD;
 use crate::study::{Plan, Watcher};
 
-use super::seconds::{Pass, Trace, seconds};
+use super::seconds::{Error, Pass, Trace, seconds};
 use super::side::{Memory, Side};
-use super::trail::{Follow, Set, Tally, Trail};
+use super::trail::{Follow, Nodes, Set, Tally, Trail};
 use super::way::{Point, Way};
 use super::{Cell, Found, Traversal};
 
@@ -46,7 +46,7 @@ pub fn measure(
     let rays = sets.iter().map(wide_rays).collect();
     let memory = Memory {
         bytes: tree.bytes() as u64,
-        thin_leaves: thin_leaves(&tree, &tree.boxes, f64::PADDING),
+        thin: thin_leaves(&tree, &tree.boxes, f64::PADDING),
     };
     let wide = Side::new("f64", &tree, memory, Some(&scene.objects), rays);
     let narrow = narrow.as_ref().map(|tree| {
@@ -55,22 +55,25 @@ pub fn measure(
         let triangles = triangles.as_deref();
         let memory = Memory {
             bytes: tree.bytes() as u64,
-            thin_leaves: thin_leaves(tree, &tree.boxes, f32::PADDING.into()),
+            thin: thin_leaves(tree, &tree.boxes, f32::PADDING.into()),
         };
         Ok::<_, String>(Side::new("f32", tree, memory, triangles, rays))
     });
     let narrow = narrow.transpose()?;
 
     let mut found = Found::default();
-    let mut passes = job.passes(&wide, job.count(&wide, &mut found, watcher));
+    let mut most = job.count(&wide, &mut found, watcher);
     if let Some(narrow) = &narrow {
-        let most = job.count(narrow, &mut found, watcher);
-        passes.extend(job.passes(narrow, most));
+        let own = job.count(narrow, &mut found, watcher);
+        most.iter_mut().zip(own).for_each(|(a, b)| *a = a.max(b));
     }
+    // The same rays in both precisions.
+    let mut passes = job.passes(&wide, &most);
+    passes.extend(narrow.iter().flat_map(|side| job.passes(side, &most)));
     let mut builds = vec![Pass::build(BUILD.into(), || build_tree(scene, rules))];
     builds.extend(wide.builds());
     builds.extend(narrow.iter().flat_map(Side::builds));
-    let built = seconds(builds, asked.timing.builds, plan.seed, || ());
+    let built = on_one_thread(|| seconds(builds, asked.timing.builds, plan.seed, || ()));
     let traced = seconds(passes, asked.timing.rounds, plan.seed, || watcher.done(1));
     let named = |row| PassTiming {
         cell: cell.id.clone(),
@@ -96,15 +99,14 @@ fn depths(tree: &Tree) -> Vec<u32> {
     depths
 }
 
-/// Leaves whose shortest side is within twice the padding of the root's longest.
-fn thin_leaves(tree: &impl Planes, boxes: &[Aabb], padding: f64) -> u64 {
+/// Which nodes are leaves whose shortest side is within twice the padding of the root's longest.
+fn thin_leaves(tree: &impl Planes, boxes: &[Aabb], padding: f64) -> Vec<bool> {
     let least = 2.0 * padding * boxes[0].extent().max_element();
     let thin = |(number, own): (u32, &Aabb)| {
         let leaf = matches!(tree.node(number), NodeKind::Leaf { .. });
         leaf && own.extent().min_element() <= least
     };
-    let thin = (0..).zip(boxes).filter(|&node| thin(node));
-    thin.count() as u64
+    (0..).zip(boxes).map(thin).collect()
 }
 
 /// The tree in single precision; where that is refused, the user is told why.
@@ -162,9 +164,12 @@ impl Job<'_> {
             let Some(set) = side.set(number, rays.of.ask()) else {
                 return 0.0;
             };
+            let nodes = Nodes {
+                depths: self.depths,
+                thin: &side.memory.thin,
+            };
             let follow = |way| {
-                let depths = self.depths;
-                let trails: Vec<Trail<_>> = side.walks.take(way, Follow { set, depths });
+                let trails: Vec<Trail<_>> = side.walks.take(way, Follow { set, nodes });
                 watcher.done(1);
                 trails
             };
@@ -192,10 +197,10 @@ impl Job<'_> {
     >(
         &self,
         side: &'s Side<'_, T, O>,
-        most: Vec<f64>,
+        most: &[f64],
     ) -> Vec<Pass<'s>> {
         let mut passes = Vec::new();
-        for (number, (rays, most)) in self.sets.iter().zip(most).enumerate() {
+        for (number, (rays, &most)) in self.sets.iter().zip(most).enumerate() {
             let Some(set) = side.set(number, rays.of.ask()) else {
                 continue;
             };
@@ -211,7 +216,12 @@ impl Job<'_> {
                     side.walks.take(way, Trace { set, stack })
                 };
                 let what = format!("{} {} {way}", rays.of, side.precision);
-                passes.push(Pass::new(what, chunks.clone(), trace));
+                let error = match way {
+                    Way::Stack => Error::OfRays,
+                    _ => Error::OfRatio,
+                };
+                let rays = (set.rays.len(), chunks.clone());
+                passes.push(Pass::new(what, rays, error, trace));
             }
         }
         passes
@@ -237,6 +247,7 @@ impl Job<'_> {
             object_tests: tested(tally.work.tests),
             links: tally.links,
             fall_backs: tally.fall_backs,
+            thin_fall_backs: tally.thin_fall_backs,
             differing_hits: tested(tally.differing_hits),
             differing_leaves: tally.differing_leaves,
             broken: tally.broken,
@@ -257,7 +268,7 @@ impl Job<'_> {
             depth: self.depths.iter().max().copied().unwrap_or(0).into(),
             inner_nodes: nodes / 2,
             leaves: nodes.div_ceil(2),
-            thin_leaves: side.memory.thin_leaves,
+            thin_leaves: side.memory.thin.iter().filter(|&&thin| thin).count() as u64,
             tree_bytes: side.memory.bytes,
             links_to_leaves: facts.to_leaves as u64,
             links_to_inner: facts.to_inner as u64,

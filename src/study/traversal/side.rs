@@ -13,8 +13,8 @@ use super::way::{Point, Walks, Way};
 pub struct Memory {
     /// Bytes of nodes and references.
     pub bytes: u64,
-    /// Leaves so thin that their planes are not told apart.
-    pub thin_leaves: u64,
+    /// Which nodes are leaves so thin that their planes are not told apart.
+    pub thin: Vec<bool>,
 }
 
 /// A tree in one precision, its rays, and what they are tested against, if that has a test there.

@@ -60,6 +60,8 @@ pub struct Trail<T> {
     pub links: u64,
     /// Whether it was finished with a stack.
     pub fell_back: bool,
+    /// Whether it met a leaf so thin that its planes are not told apart.
+    pub thin: bool,
     /// Stands for its leaves, in their order.
     pub leaves: u64,
     /// Sum of the depths of its leaves.
@@ -68,22 +70,31 @@ pub struct Trail<T> {
 
 /// Writes down what a ray does.
 struct Tracker<'d, T> {
-    /// Depth of every node.
-    depths: &'d [u32],
+    nodes: Nodes<'d>,
     trail: Trail<T>,
 }
 
+/// What is told of a ray by the nodes that it visits.
+#[derive(Clone, Copy)]
+pub struct Nodes<'d> {
+    /// Depth of every node.
+    pub depths: &'d [u32],
+    /// Which are leaves so thin that their planes are not told apart.
+    pub thin: &'d [bool],
+}
+
 impl<'d, T> Tracker<'d, T> {
-    fn new(depths: &'d [u32]) -> Self {
+    fn new(nodes: Nodes<'d>) -> Self {
         let trail = Trail {
             hit: None,
             work: Work::default(),
             links: 0,
             fell_back: false,
+            thin: false,
             leaves: 0xcbf2_9ce4_8422_2325,
             depths: 0,
         };
-        Self { depths, trail }
+        Self { nodes, trail }
     }
 }
 
@@ -97,7 +108,8 @@ impl<T> Probe for Tracker<'_, T> {
     fn leaf(&mut self, node: u32, objects: u32) {
         let trail = &mut self.trail;
         trail.work.leaf(node, objects);
-        trail.depths += u64::from(self.depths[node as usize]);
+        trail.depths += u64::from(self.nodes.depths[node as usize]);
+        trail.thin |= self.nodes.thin[node as usize];
         // FNV with words for bytes, and a turn so that high bits come down again.
         trail.leaves =
             (trail.leaves.rotate_left(23) ^ u64::from(node)).wrapping_mul(0x0100_0000_01b3);
@@ -118,8 +130,8 @@ impl<T> Probe for Tracker<'_, T> {
 pub struct Follow<'a, V: Vector, O: ?Sized> {
     /// The rays.
     pub set: Set<'a, V, O>,
-    /// Depth of every node.
-    pub depths: &'a [u32],
+    /// What is told of nodes.
+    pub nodes: Nodes<'a>,
 }
 
 impl<V, O> Task<V> for Follow<'_, V, O>
@@ -131,7 +143,7 @@ where
 
     fn along<W: Walk<Vector = V> + Sync>(self, walk: &W) -> Self::Done {
         let follow = |stack: &mut Stack<V::Real>, ray: &Ray<V>| {
-            let mut tracker = Tracker::new(self.depths);
+            let mut tracker = Tracker::new(self.nodes);
             let hit = self.set.follow(walk, ray, stack, &mut tracker);
             Trail {
                 hit,
@@ -156,6 +168,8 @@ pub struct Tally {
     pub links: u64,
     /// Rays finished with a stack.
     pub fall_backs: u64,
+    /// Of these, rays that meet a leaf so thin that its planes are not told apart.
+    pub thin_fall_backs: u64,
     /// Rays whose nearest hit is another one.
     pub differing_hits: u64,
     /// Rays not finished with a stack whose leaves, or their order, are others.
@@ -174,7 +188,8 @@ impl Tally {
             sum.work += own.work;
             sum.links += own.links;
             sum.fall_backs += u64::from(own.fell_back);
-            sum.differing_hits += u64::from(own.hit != stack.hit);
+            sum.thin_fall_backs += u64::from(own.fell_back && own.thin);
+            sum.differing_hits += u64::from(bits(own.hit) != bits(stack.hit));
             if !own.fell_back {
                 sum.differing_leaves += u64::from(own.leaves != stack.leaves);
                 sum.broken += u64::from(!keeps_identities(way, own, stack));
@@ -182,6 +197,11 @@ impl Tally {
         }
         sum
     }
+}
+
+/// A hit to the last bit; the wider number holds both precisions' bits.
+fn bits<T: Real>(hit: Option<Hit<T>>) -> Option<(u32, u64)> {
+    hit.map(|hit| (hit.object, hit.t.to_f64().to_bits()))
 }
 
 /// What must hold of a ray that was not finished with a stack. Each leaf but the first is reached by a link or a restart. A restart
@@ -201,7 +221,10 @@ mod tests {
     use super::*;
 
     fn trail(leaves: &[u32], links: u64, inner: u32) -> Trail<f64> {
-        let mut tracker = Tracker::new(&[0, 1, 1, 2, 2]);
+        let mut tracker = Tracker::new(Nodes {
+            depths: &[0, 1, 1, 2, 2],
+            thin: &[false, false, true, false, false],
+        });
         (0..inner).for_each(|node| tracker.inner(node));
         leaves.iter().for_each(|&leaf| tracker.leaf(leaf, 1));
         (0..links).for_each(|_| tracker.link());
@@ -227,7 +250,15 @@ mod tests {
         };
         let tally = Tally::of(Way::Links, &[fell], &[ab]);
         assert_eq!((tally.fall_backs, tally.differing_leaves), (1, 0));
-        assert_eq!(tally.differing_hits, 1);
+        assert_eq!((tally.differing_hits, tally.thin_fall_backs), (1, 0));
+        // Zeros of either sign are equal, but not the same; the second leaf is thin.
+        let at = |t| Trail {
+            fell_back: true,
+            hit: Some(Hit { object: 1, t }),
+            ..trail(&[3, 2], 1, 2)
+        };
+        let tally = Tally::of(Way::Links, &[at(0.0)], &[at(-0.0)]);
+        assert_eq!((tally.differing_hits, tally.thin_fall_backs), (1, 1));
     }
 
     #[test]

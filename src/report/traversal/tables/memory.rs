@@ -1,6 +1,6 @@
 //! What links take of memory.
 
-use super::{ratio_cells, ratio_columns};
+use super::{INTERVAL, ratio_cells, ratio_columns};
 use crate::report::shown::{known, percent, ratio, text};
 use crate::report::strategies::averages::Averages;
 use crate::report::table::{Cell, Column, Table};
@@ -100,9 +100,10 @@ pub fn memory_summary(run: &Traversal) -> Table {
         .iter()
         .flat_map(|precision| WAYS.iter().filter_map(move |way| row(precision, way)));
     Table {
-        caption: "What links, and links through face trees, take of memory: bytes a leaf beside the tree's own (geometric mean), and bytes \
-                  of the tree with them over the tree alone (geometric mean over scenes, least and most). Restarts take none."
-            .to_owned(),
+        caption: format!(
+            "What links, and links through face trees, take of memory: bytes a leaf beside the tree's own (geometric mean), and bytes \
+                  of the tree with them over the tree alone (geometric mean over scenes, least and most; {INTERVAL}). Restarts take none."
+        ),
         columns,
         keys: 2,
         rows: rows.collect(),

@@ -1,6 +1,6 @@
 //! What rays do along the ways.
 
-use super::{ratio_cells, ratio_columns};
+use super::{INTERVAL, ratio_cells, ratio_columns};
 use crate::report::shown::{known, percent, ratio, text};
 use crate::report::strategies::averages::Averages;
 use crate::report::table::{Cell, Column, Table};
@@ -66,6 +66,7 @@ pub fn steps_summary(run: &Traversal) -> Table {
     columns.extend([
         Column::right("links to a leaf straight, %", "straight_pct"),
         Column::right("fell back", "fall_backs"),
+        Column::right("in thin leaves", "thin_fall_backs"),
         Column::right("of rays", "cast"),
         Column::right("most on a scene, %", "fall_backs_most_pct"),
     ]);
@@ -90,6 +91,7 @@ pub fn steps_summary(run: &Traversal) -> Table {
         row.push(known(straight(run, precision, way), percent));
         row.extend([
             Cell::Count(sum(|r| r.fall_backs)),
+            Cell::Count(sum(|r| r.thin_fall_backs)),
             Cell::Count(sum(|r| r.cast)),
         ]);
         row.push(known(most.reduce(f64::max), percent));
@@ -103,10 +105,10 @@ pub fn steps_summary(run: &Traversal) -> Table {
     }
     Table {
         caption: format!(
-            "Inner nodes that the rays of a set visit over those with a stack: geometric mean over scenes, least and most. Leaves of a \
+            "Inner nodes that the rays of a set visit over those with a stack: geometric mean over scenes, least and most; {INTERVAL}. Leaves of a \
              ray: geometric mean. Links to a leaf straight: share of all links within the root's box that lead to a leaf and not to a node \
              that covers the face. Fell back: rays whose next leaf was not certain, as planes tie, and that were finished with a \
-             stack.{}",
+             stack; in thin leaves: those of them that meet a leaf thinner than 12 ulp of the root's longest side.{}",
             left_out(run)
         ),
         columns,

@@ -1,12 +1,14 @@
 //! Seconds of the ways, and of building what they need.
 
-use super::{ratio_cells, ratio_columns};
+use super::{INTERVAL, ratio_cells, ratio_columns};
 use crate::report::shown::{known, ratio, text};
 use crate::report::strategies::averages::Averages;
 use crate::report::table::{Cell, Column, Table};
 use crate::report::traversal::Traversal;
-use crate::report::traversal::against::{Against, PRECISIONS, STACK, WAYS, averages, outcomes};
-use crate::report::traversal::figures::{disturbed, left_out};
+use crate::report::traversal::against::{
+    Against, BUILD, PRECISIONS, STACK, WAYS, averages, outcomes,
+};
+use crate::report::traversal::figures::{BELIEF, disturbed, disturbed_builds, left_out, sample};
 use crate::study::records::{LinkRecord, TraversalRecord};
 
 /// Every tree, set of rays and precision.
@@ -21,7 +23,7 @@ pub fn times(run: &Traversal) -> Table {
         let key = way.replace('-', "_");
         columns.extend([
             Column::right(&format!("{way} over it"), &key),
-            Column::right("error, %", &format!("{key}_error_pct")),
+            Column::right("±, %", &format!("{key}_error_pct")),
         ]);
     }
     columns.push(Column::left("disturbed", "disturbed"));
@@ -47,8 +49,9 @@ pub fn times(run: &Traversal) -> Table {
     let stacks = run.walks.iter().filter(|row| row.way == STACK);
     Table {
         caption: format!(
-            "Nanoseconds of a ray with a stack, and seconds along the other ways over those; error: how far the ratio by even and by odd \
-             rounds is apart, at least 1 %. On one thread, of each chunk of rays the least of all rounds.{}{}",
+            "Nanoseconds of a ray with a stack, and seconds along the other ways over those; ±: {BELIEF}. On one thread, of each chunk of \
+             rays the least of all rounds.{}{}{}",
+            sample(run),
             disturbed(run),
             left_out(run)
         ),
@@ -56,6 +59,21 @@ pub fn times(run: &Traversal) -> Table {
         keys: 3,
         rows: stacks.filter_map(row).collect(),
     }
+}
+
+/// What is averaged of a set of rays: all scenes in each precision; where single precision has fewer, double on these alone too.
+fn groups<'r>(run: &'r Traversal, rays: &str, way: &str) -> [(&'static str, Vec<Against<'r>>); 3] {
+    let [wide, narrow] = PRECISIONS.map(|precision| run.of(rays, precision, way));
+    let in_both = |row: &&Against| narrow.iter().any(|n| n.own.cell == row.own.cell);
+    let mut same: Vec<_> = wide.iter().filter(in_both).copied().collect();
+    if same.len() == wide.len() {
+        same.clear();
+    }
+    [
+        ("f64", wide),
+        ("f64 of those in f32", same),
+        ("f32", narrow),
+    ]
 }
 
 /// Every set of rays, precision and way over all scenes.
@@ -69,16 +87,13 @@ pub fn times_summary(run: &Traversal) -> Table {
     ];
     columns.extend(ratio_columns("seconds", "seconds"));
     columns.extend([
-        Column::left("least on", "seconds_least_scene"),
-        Column::left("most on", "seconds_most_scene"),
         Column::right("faster", "faster"),
         Column::right("slower", "slower"),
-        Column::right("even", "even"),
+        Column::right("undecided", "undecided"),
     ]);
-    let row = |rays: &str, precision: &str, way: &str| {
-        let rows = run.of(rays, precision, way);
-        let seconds = averages(&rows, Against::seconds)?;
-        let inner = averages(&rows, Against::inner);
+    let row = |rays: &str, precision: &str, way: &str, rows: &[Against]| {
+        let seconds = averages(rows, Against::seconds)?;
+        let inner = averages(rows, Against::inner);
         let mut row = vec![
             text(rays),
             text(precision),
@@ -87,25 +102,97 @@ pub fn times_summary(run: &Traversal) -> Table {
             known(inner, |all: Averages| ratio(all.geometric)),
         ];
         row.extend(ratio_cells(Some(&seconds)));
-        row.extend([text(seconds.best.0), text(seconds.worst.0)]);
-        row.extend(outcomes(&rows).map(Cell::Count));
+        row.extend(outcomes(rows).map(Cell::Count));
         Some(row)
     };
     let mut rows = Vec::new();
     for rays in run.sets() {
-        for precision in PRECISIONS {
-            rows.extend(WAYS.iter().filter_map(|way| row(rays, precision, way)));
+        let ways = WAYS.map(|way| (way, groups(run, rays, way)));
+        for group in 0..3 {
+            for (way, groups) in &ways {
+                let (precision, own) = &groups[group];
+                rows.extend(row(rays, precision, way, own));
+            }
         }
     }
     Table {
         caption: format!(
             "Inner nodes and seconds over those with a stack in the same tree and precision: geometric means over scenes; of seconds the \
-             least and the most too, and on which scene. Faster, slower: scenes on which that is certain, the ratio being further from 1 \
-             than the ratios by even and by odd rounds from each other, and than 1 %; even: the others.{}",
+             least and the most too. {INTERVAL}. Faster, slower: scenes on which the ratio is further from 1 than it can be off: {BELIEF}.{}{}{}",
+            sample(run),
+            disturbed(run),
             left_out(run)
         ),
         columns,
         keys: 3,
+        rows,
+    }
+}
+
+/// Where a way is faster than a stack.
+pub fn times_pays(run: &Traversal) -> Table {
+    let columns = vec![
+        Column::left("scene", "scene"),
+        Column::left("rays", "rays"),
+        Column::left("precision", "precision"),
+        Column::left("way", "way"),
+        Column::right("inner nodes", "inner"),
+        Column::right("seconds", "seconds"),
+        Column::right("±, %", "error_pct"),
+    ];
+    let faster = run.faster();
+    let row = |row: &Against| {
+        vec![
+            text(&row.own.scene),
+            text(&row.own.rays),
+            text(&row.own.precision),
+            text(&row.own.way),
+            known(row.inner(), ratio),
+            known(row.seconds(), ratio),
+            known(row.error(), |error| Cell::Value(100.0 * error, 1)),
+        ]
+    };
+    Table {
+        caption: format!(
+            "Where a way is faster than a stack: {} of {} ratios of seconds. Inner nodes and seconds over those with a stack; ±: \
+             {BELIEF}.{}",
+            faster.len(),
+            run.ratios(),
+            disturbed(run)
+        ),
+        columns,
+        keys: 4,
+        rows: faster.iter().map(row).collect(),
+    }
+}
+
+/// Single precision over double, along each way.
+pub fn times_precision(run: &Traversal) -> Table {
+    let mut columns = vec![
+        Column::left("rays", "rays"),
+        Column::left("way", "way"),
+        Column::right("scenes", "scenes"),
+    ];
+    columns.extend(ratio_columns("seconds", "seconds"));
+    let mut rows = Vec::new();
+    for rays in run.sets() {
+        for way in [STACK].into_iter().chain(WAYS) {
+            let averages = Averages::of(&run.narrow_over_wide(rays, way));
+            let Some(averages) = averages else { continue };
+            let mut row = vec![text(rays), text(way), Cell::Count(averages.scenes as u64)];
+            row.extend(ratio_cells(Some(&averages)));
+            rows.push(row);
+        }
+    }
+    Table {
+        caption: format!(
+            "Seconds in f32 over those in f64, the same rays along the same way: geometric means over scenes, least and most. {INTERVAL}.{}{}{}",
+            sample(run),
+            disturbed(run),
+            left_out(run)
+        ),
+        columns,
+        keys: 2,
         rows,
     }
 }
@@ -127,12 +214,12 @@ pub fn times_links(run: &Traversal) -> Table {
             let time = run.timing(&row.cell, what);
             known(time, |time| ratio(1e3 * time.seconds))
         };
-        let own = |what: &str| ms(&format!("build {what} {}", row.precision));
+        let own = |what: &str| ms(&format!("{BUILD} {what} {}", row.precision));
         vec![
             text(&row.scene),
             text(&row.precision),
             Cell::Count(row.leaves),
-            ms("build"),
+            ms(BUILD),
             own("links"),
             own("face-trees"),
             known(run.building(row, "links"), ratio),
@@ -140,9 +227,11 @@ pub fn times_links(run: &Traversal) -> Table {
         ]
     };
     Table {
-        caption: "Milliseconds of building the tree (in f64), its links, and the face trees from these: the least of all builds, on one \
-                  thread; seconds of links, and of both, over the tree's."
-            .to_owned(),
+        caption: format!(
+            "Milliseconds of building the tree (in f64), its links, and the face trees from these: the least of all builds, on one \
+             thread; seconds of links, and of both, over the tree's.{}",
+            disturbed_builds(run)
+        ),
         columns,
         keys: 2,
         rows: run.links.iter().map(row).collect(),
