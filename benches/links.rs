@@ -92,6 +92,10 @@ fn rows<T: Planes>(
     let links = Links::of(tree);
     let faces = FaceTrees::of(tree, &links);
     let (restart, linked, through_faces) = (Restart(tree), links.walk(tree), faces.walk(tree));
+    let hits = hits(tree, objects, rays);
+    assert_eq!(hits, self::hits(&restart, objects, rays));
+    assert_eq!(hits, self::hits(&linked, objects, rays));
+    assert_eq!(hits, self::hits(&through_faces, objects, rays));
     let mut jobs = Jobs::default();
     add(&mut jobs, tree, objects, rays);
     add(&mut jobs, &restart, objects, rays);
@@ -123,9 +127,18 @@ fn add<'a, W: Walk>(
     objects: &'a (impl Targets<Vector = W::Vector> + ?Sized),
     rays: &'a [Ray<W::Vector>],
 ) {
+    jobs.add(move || hits(walk, objects, rays));
+}
+
+/// Rays that hit something, and the sum of the objects' numbers.
+fn hits<W: Walk>(
+    walk: &W,
+    objects: &(impl Targets<Vector = W::Vector> + ?Sized),
+    rays: &[Ray<W::Vector>],
+) -> (usize, u64) {
     let mut stack = Stack::default();
-    jobs.add(move || {
-        let hit = |ray: &&Ray<W::Vector>| nearest(walk, objects, ray, &mut stack).is_some();
-        rays.iter().filter(hit).count()
-    });
+    let found = rays
+        .iter()
+        .filter_map(|ray| nearest(walk, objects, ray, &mut stack));
+    found.fold((0, 0), |(n, sum), hit| (n + 1, sum + u64::from(hit.object)))
 }

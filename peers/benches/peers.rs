@@ -9,24 +9,25 @@
 //! README.
 //!
 //! Compared: building, nearest hits and any hits against Embree (if it is there, see `peers/src/embree/`), obvhs, parry3d,
-//! bvh and kdtree-ray; counting and making lines, which no library has, against our own slower ways. Left out: rtbvh 0.6,
-//! which loses hits, and what needs a C++ compiler.
+//! bvh and kdtree-ray; counting and making lines, which no library has, against our own slower ways. Left out: what needs
+//! a C++ compiler.
 //!
 //! Fair play:
 //! - All get the same coordinates and rays in single precision, and what a library makes of them (boxes, triangles with
 //!   edges, reciprocals) is in its time. Rays are asked one by one, 65,536 of the set in 16 chunks, as what one takes does not
 //!   depend on how many there are; ray streams (`streams` in their name) get the million of them at once, and put them in order
-//!   within their time. Embree, too, can take many rays at once, which is made for rays side by side; it is asked one by one.
+//!   within their time. The least time of a pass as long as theirs drops fewer disturbances than those of short chunks, to our
+//!   disadvantage. Embree, too, can take many rays at once, which is made for rays side by side; it is asked one by one.
 //! - Single precision halves memory and doubles the width of vectors; where our way is one of double precision (`f64` in
 //!   its name) that is to our disadvantage. Our triangle test is watertight (Woop, Benthin & Wald 2013); the tests of the
-//!   others are not, and cheaper. Embree's robust mode would cost it 15 to 26 %.
+//!   others are not, and cheaper; Embree is in its default mode, not its robust one.
 //! - Embree and our own kernels ask the processor for AVX2 and AVX-512 while they run. The crates are compiled for what
-//!   the target has (x86-64: SSE2), as they are for a user who sets nothing. With `target-cpu=native` as above, on a processor
-//!   with AVX-512, CWBVH of obvhs gained up to 20 % on us, the others nothing that stood out of the noise.
+//!   the target has (x86-64: SSE2), as they are for a user who sets nothing. `target-cpu=native` as above
+//!   may speed some of them up.
 //! - `bvh` and `kdtree-ray` bring no usable triangle test; the one of Möller & Trumbore stands in.
 //!
-//! Jobs run in eight rounds (four for a million triangles), those of one work in random order. A rate is of the sum of the
-//! least times of chunks of 4096 rays; the interval of a ratio is that of all halves of the rounds (`peers/src/ratio.rs`).
+//! Jobs run in eight rounds (six for a million triangles), those of one work in random order. A rate is of the sum of the
+//! least times of chunks of 4096 rays; the range of a ratio is that over all halves of the rounds (`peers/src/ratio.rs`).
 
 use std::path::Path;
 
@@ -41,7 +42,7 @@ use sahlab::scene::Scene;
 const ROUNDS: usize = 8;
 
 /// Rounds of builds that take seconds.
-const FEW_ROUNDS: usize = 4;
+const FEW_ROUNDS: usize = 6;
 
 /// Rays of each set: a camera of 1024 x 1024.
 const SIDE: u32 = 1024;

@@ -38,11 +38,10 @@ pub fn ways() -> Vec<Box<dyn Peer>> {
     ]
 }
 
-/// The way that is "ours" for a work: the one that a user of sahlab would take for it.
+/// The way that is "ours" for a work: of building the tree that nearest and any hits are asked of.
 pub fn best(work: Work) -> &'static str {
     match work {
-        Work::Build => UNCLIPPED,
-        Work::Nearest | Work::Any => BEST,
+        Work::Build | Work::Nearest | Work::Any => BEST,
         Work::Count => STREAMS,
         Work::Lines => LINES,
     }
@@ -92,10 +91,10 @@ impl Peer for Way {
 
     fn most_triangles(&self) -> usize {
         // Of ways that share a tree one is enough to time its building.
-        if self.single && !self.narrow {
-            usize::MAX
-        } else {
+        if self.single == self.narrow {
             0
+        } else {
+            usize::MAX
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Seconds of jobs over rounds, and the ratio of two jobs with an interval.
+//! Seconds of jobs over rounds, and the ratio of two jobs with its range.
 
 /// Seconds of one job: a list of chunks for every round.
 #[derive(Clone, Debug, Default)]
@@ -32,41 +32,41 @@ impl Times {
     }
 }
 
-/// How many times as fast one job is as another, with its interval.
+/// How many times as fast one job is as another, and how far that depends on which rounds there were.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ratio {
     /// Of the least times over all rounds.
     pub value: f64,
-    /// The 2.5 % quantile of the same over every half of the rounds.
+    /// The least of this and of the same over every half of the rounds.
     pub low: f64,
-    /// Their 97.5 % quantile.
+    /// The largest.
     pub high: f64,
 }
 
 impl Ratio {
     /// Seconds of `peer` over those of `ours`; both ran in the same rounds, of which there are at least 2 and at most 16.
     ///
-    /// Half of the rounds, drawn without replacement, scatter about the whole as the whole does about what many more rounds
-    /// would give: eight rounds have 70 halves, and each is taken.
+    /// Its range is none of confidence: least times of fewer rounds are never smaller, so that halves may lie on one side. It tells
+    /// whether the rounds agree: eight have 70 halves, and each is taken.
     pub fn new(ours: &Times, peer: &Times) -> Self {
         let rounds = ours.0.len();
         assert!(rounds == peer.0.len() && (2..=16).contains(&rounds));
         let halves = (0..1_u32 << rounds).filter(|set| set.count_ones() as usize == rounds / 2);
-        let mut ratios: Vec<f64> = halves
-            .map(|set| {
-                let taken = |round: usize| set >> round & 1 == 1;
-                peer.least_of(taken) / ours.least_of(taken)
-            })
-            .collect();
-        ratios.sort_by(f64::total_cmp);
-        let last = ratios.len() - 1;
-        // Rounded outwards.
-        let cut = (0.025 * last as f64) as usize;
-        Self {
-            value: peer.least() / ours.least(),
-            low: ratios[cut],
-            high: ratios[last - cut],
-        }
+        let value = peer.least() / ours.least();
+        let of_half = |set: u32| {
+            let taken = |round: usize| set >> round & 1 == 1;
+            peer.least_of(taken) / ours.least_of(taken)
+        };
+        let whole = Self {
+            value,
+            low: value,
+            high: value,
+        };
+        halves.map(of_half).fold(whole, |range, half| Self {
+            low: range.low.min(half),
+            high: range.high.max(half),
+            ..range
+        })
     }
 }
 
@@ -86,7 +86,7 @@ mod tests {
     }
 
     #[test]
-    fn a_disturbed_round_widens_the_interval_but_moves_no_ratio() {
+    fn a_disturbed_round_widens_the_range_but_moves_no_ratio() {
         let ours = times(&[[1.0, 1.0]; 8]);
         let mut rounds = [[2.0, 2.0]; 8];
         let calm = Ratio::new(&ours, &times(&rounds));
@@ -110,5 +110,14 @@ mod tests {
                 high: 3.0
             }
         );
+    }
+
+    #[test]
+    fn the_range_holds_the_ratio() {
+        // Each chunk of ours is fast in a round of its own: no half sees all of them.
+        let peer = times(&[[2.0, 2.0]; 2]);
+        let ours = times(&[[1.0, 2.0], [2.0, 1.0]]);
+        let Ratio { value, low, high } = Ratio::new(&ours, &peer);
+        assert_eq!((value, low, high), (2.0, 4.0 / 3.0, 2.0));
     }
 }

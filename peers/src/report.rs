@@ -70,6 +70,7 @@ pub fn markdown(
         let _ = writeln!(text, "{note}.\n");
     }
     text += &libraries(contests, peers);
+    text += &ranges(contests, peers);
     text += &ways(contests);
     text += &differences(disagreements);
     text
@@ -107,13 +108,32 @@ fn libraries(contests: &[Contest], peers: &[String]) -> String {
     text
 }
 
+/// How far halves of the rounds take the ratios of the table of libraries.
+fn ranges(contests: &[Contest], peers: &[String]) -> String {
+    let all = contests.iter().filter(|c| against_libraries(c.work));
+    let shown = all
+        .flat_map(rows)
+        .filter(|row| peers.iter().any(|p| p == row.peer));
+    let wide = |row: Row| (row.ratio.high - row.ratio.low) / row.ratio.value;
+    let mut wide: Vec<f64> = shown.map(wide).collect();
+    wide.sort_by(f64::total_cmp);
+    let (Some(middle), Some(last)) = (wide.get(wide.len() / 2), wide.last()) else {
+        return String::new();
+    };
+    format!(
+        "\nThe range of a ratio over all halves of the rounds is {:.1} % of it in the median, at most {:.0} %.\n",
+        100.0 * middle,
+        100.0 * last
+    )
+}
+
 fn against_libraries(work: Work) -> bool {
     matches!(work, Work::Build | Work::Nearest | Work::Any)
 }
 
 fn ways(contests: &[Contest]) -> String {
     let mut text =
-        "\n| what no library does | scene | ours, M/s | against | M/s | ratio | 95 % of half-sets |\n\
+        "\n| what no library does | scene | ours, M/s | against | M/s | ratio | range over halves of the rounds |\n\
                     |:---|:---|---:|:---|---:|---:|---:|\n"
             .to_owned();
     for contest in contests.iter().filter(|c| !against_libraries(c.work)) {

@@ -61,7 +61,7 @@ impl Rules {
 /// Build a tree over objects given by their boxes, with `world` around them all.
 ///
 /// # Panics
-/// If a box is not valid, lies outside `world`, the rules ask for clipping, there are more than 2^30 boxes, or the tree would
+/// If a box is not valid, lies outside `world`, the rules ask for clipping, there are 2^30 boxes or more, or the tree would
 /// need 2^32 nodes or references.
 pub fn build(bounds: &[Aabb], world: Aabb, rules: &Rules) -> Tree {
     assert!(!rules.clipped, "boxes alone cannot be clipped");
@@ -126,7 +126,7 @@ fn build_over(
             "box {i} is {b:?}, world {world:?}"
         );
     }
-    assert!(bounds.len() <= MOST_OBJECTS, "more than 2^30 objects");
+    assert!(bounds.len() <= MOST_OBJECTS, "2^30 objects or more");
     let frame = Frame::new(rules, bounds.len(), &world, sweeps, grain);
     let root = Path {
         depth: 0,

@@ -66,7 +66,7 @@ impl<'a> Clipping<'a> {
                 self.objects
                     .clipped_bounds(names[i], &region, self.slack, clipper)
             });
-            debug_assert!(parts.iter().any(Option::is_some), "object {object} lost");
+            assert!(parts.iter().any(Option::is_some), "object {object} lost");
             sides[i] = u8::from(parts[0].is_some()) * LEFT + u8::from(parts[1].is_some()) * RIGHT;
             if let Some(left) = parts[0] {
                 bounds[i] = left;

@@ -31,8 +31,8 @@ pub(super) struct Event {
 /// Bits of an event that name its object.
 const OBJECT_BITS: u32 = 30;
 
-/// Objects that events can tell apart.
-pub(super) const MOST_OBJECTS: usize = 1 << OBJECT_BITS;
+/// Objects that events can tell apart, and a leaf can hold.
+pub(super) const MOST_OBJECTS: usize = (1 << OBJECT_BITS) - 1;
 
 impl Event {
     fn new(position: f64, kind: EventKind, object: u32) -> Self {
@@ -52,7 +52,7 @@ impl Event {
 
     #[inline(always)]
     pub fn object(self) -> u32 {
-        self.tag & (MOST_OBJECTS as u32 - 1)
+        self.tag & MOST_OBJECTS as u32
     }
 
     #[inline(always)]

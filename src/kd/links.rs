@@ -1,9 +1,10 @@
-//! Neighbour links: six per leaf, one a face, to what lies behind it (MacDonald & Booth 1990, section 5; "ropes" of Havran, Bittner
-//! and Zara 1998 and Popov, Guenther, Seidel & Slusallek 2007).
+//! Neighbour links: six per leaf, one a face, to what lies behind it (MacDonald & Booth 1990, section 5; "ropes" of Popov,
+//! Guenther, Seidel & Slusallek 2007).
 //!
 //! A link leads to the leaf behind the face; if several touch it, to the smallest node that covers the face; on the root's box
 //! nowhere. A ray that leaves a leaf goes on along the link of the face it leaves through and needs no stack ([`Linked`]); from
-//! a covering node it descends, or goes through a face's own tree ([`FaceTrees`], Hapala & Havran 2011).
+//! a covering node it descends, or goes through a face's own tree ([`FaceTrees`], "rope trees" of Havran, Bittner &
+//! Zara 1998). Hapala & Havran 2011 review all of them.
 
 mod faces;
 mod walk;
@@ -52,8 +53,6 @@ struct Leaf<T> {
     /// Where its faces lie.
     planes: Faces<T>,
     links: Faces<u32>,
-    /// Its node number.
-    node: u32,
     /// Its references.
     first: u32,
     count: u32,
@@ -64,6 +63,8 @@ struct Leaf<T> {
 pub struct Links<V: Vector> {
     /// Leaves from left to right.
     leaves: Vec<Leaf<V::Real>>,
+    /// The node of each: what only probes are told.
+    nodes: Vec<u32>,
     /// Each node's leaf number; [`OUTSIDE`] for inner nodes.
     numbers: Vec<u32>,
 }
@@ -140,14 +141,14 @@ impl<V: Vector> Links<V> {
     /// The links of a tree, in one pass down.
     ///
     /// # Panics
-    /// If the tree has 2^31 - 1 nodes or more.
+    /// If the tree has 2^31 nodes or more.
     pub fn of<T: Planes<Vector = V, Real = V::Real>>(tree: &T) -> Self {
         let world = tree.world();
         let root = Cell {
             planes: [0, 1, 2].map(|axis| [world.lo[axis], world.hi[axis]]),
             covering: [[None; 2]; 3],
         };
-        let mut leaves = Vec::new();
+        let (mut leaves, mut nodes) = (Vec::new(), Vec::new());
         // Links of the leaves by node numbers, as long as not all leaves have theirs.
         let mut covering = Vec::new();
         let mut pending = vec![(0, root)];
@@ -162,20 +163,19 @@ impl<V: Vector> Links<V> {
                     leaves.push(Leaf {
                         planes: cell.planes,
                         links: [[OUTSIDE; 2]; 3],
-                        node,
                         first,
                         count,
                     });
+                    nodes.push(node);
                     covering.push(cell.covering);
                 }
             }
         }
-        let last = leaves.iter().map(|leaf| leaf.node).max();
-        let last = last.expect("a tree has a leaf");
-        assert!(last < !LEAF, "links number fewer than 2^31 - 1 nodes");
+        let last = *nodes.iter().max().expect("a tree has a leaf");
+        assert!(last < !LEAF, "links number fewer than 2^31 nodes");
         let mut numbers = vec![OUTSIDE; last as usize + 1];
-        for (number, leaf) in (0..).zip(&leaves) {
-            numbers[leaf.node as usize] = number;
+        for (number, &node) in (0..).zip(&nodes) {
+            numbers[node as usize] = number;
         }
         let link = |node: Option<u32>| match node {
             None => OUTSIDE,
@@ -187,12 +187,22 @@ impl<V: Vector> Links<V> {
         for (leaf, covering) in leaves.iter_mut().zip(&covering) {
             leaf.links = covering.map(|pair| pair.map(link));
         }
-        Self { leaves, numbers }
+        Self {
+            leaves,
+            nodes,
+            numbers,
+        }
     }
 
-    /// Bytes that a walk reads besides the tree itself: leaves and their numbers.
+    /// Bytes that a walk reads besides the tree itself: leaves and their numbers. What only probes are told is not among them.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.leaves[..]) + size_of_val(&self.numbers[..])
+    }
+
+    /// The node of a leaf; without a branch, so that nothing is left of it where no probe asks.
+    #[inline(always)]
+    fn node(&self, leaf: u32) -> u32 {
+        self.nodes.get(leaf as usize).copied().unwrap_or_default()
     }
 
     /// Where the links lead.
@@ -212,7 +222,7 @@ impl<V: Vector> Links<V> {
         facts
     }
 
-    /// The way through the tree along these links, which must be its own.
+    /// The way through the tree along these links, which must be its own: through another tree it leads anywhere, or panics.
     pub fn walk<'a, T: Planes<Vector = V, Real = V::Real>>(&'a self, tree: &'a T) -> Linked<'a, T> {
         Linked::new(tree, self)
     }

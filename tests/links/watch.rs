@@ -13,6 +13,8 @@ pub struct Watched {
     pub links: usize,
     /// How many leaves and inner nodes there were when it fell back.
     pub fell_back: Option<(usize, usize)>,
+    /// Whether it has a stack, and may go both ways.
+    stack: bool,
     turn: Option<u32>,
 }
 
@@ -23,7 +25,7 @@ impl Probe for Watched {
 
     fn turn(&mut self, node: u32, turn: Turn) {
         assert_eq!(self.inner.last(), Some(&node));
-        assert!(self.fell_back.is_some() || turn != Turn::Both || self.links == 0);
+        assert!(self.fell_back.is_some() || self.stack || turn != Turn::Both);
         self.turn = Some(node);
     }
 
@@ -71,12 +73,15 @@ impl std::ops::AddAssign for FallBacks {
 }
 
 fn watched<M: Mode, W: Walk>(
-    walk: &W,
+    (walk, stack): (&W, bool),
     line: &Line<W::Vector>,
     span: Span<<W::Vector as Vector>::Real>,
     limit: <W::Vector as Vector>::Real,
 ) -> Watched {
-    let mut watched = Watched::default();
+    let mut watched = Watched {
+        stack,
+        ..Watched::default()
+    };
     let mut stack = Stack::default();
     walk.walk::<M, _>(line, span, &mut stack, &mut watched, |_, _| limit);
     watched
@@ -112,10 +117,10 @@ impl<'a, T: Planes> Ways<'a, T> {
         limit: T::Real,
     ) -> FallBacks {
         let ray = || format!("{line:?} within {span:?} up to {limit:?}");
-        let stack = watched::<M, _>(self.tree, line, span, limit);
-        let links = watched::<M, _>(&self.links.walk(self.tree), line, span, limit);
-        let faces = watched::<M, _>(&self.faces.walk(self.tree), line, span, limit);
-        let restart = watched::<M, _>(&Restart(self.tree), line, span, limit);
+        let stack = watched::<M, _>((self.tree, true), line, span, limit);
+        let links = watched::<M, _>((&self.links.walk(self.tree), false), line, span, limit);
+        let faces = watched::<M, _>((&self.faces.walk(self.tree), false), line, span, limit);
+        let restart = watched::<M, _>((&Restart(self.tree), false), line, span, limit);
         let all = [&links, &faces, &restart];
         for (way, walk) in all.iter().enumerate() {
             let Some((leaves, _)) = walk.fell_back else {

@@ -41,7 +41,9 @@ impl Growth {
     /// Cut `node`. Returns the left child's number, which the right one's follows.
     pub fn make_inner(&mut self, node: usize, split: &Split) -> usize {
         let left = self.nodes.len();
-        self.nodes[node] = Node::inner(split.axis, split.position, number(left, "nodes"));
+        // The right child's number fits too.
+        let right = number(left + 1, "nodes");
+        self.nodes[node] = Node::inner(split.axis, split.position, right - 1);
         make_room(&mut self.nodes, 2);
         self.nodes.extend([Node::leaf(0, 0); 2]);
         left
@@ -62,7 +64,8 @@ impl Growth {
             let references = whole.references.len();
             let mut moved = child.nodes.iter().map(|node| match node.kind() {
                 NodeKind::Inner { axis, split, left } => {
-                    Node::inner(axis, split, number(nodes + left as usize, "nodes"))
+                    let right = number(nodes + left as usize + 1, "nodes");
+                    Node::inner(axis, split, right - 1)
                 }
                 NodeKind::Leaf { first, count } => {
                     Node::leaf(number(references + first as usize, "references"), count)

@@ -22,7 +22,7 @@ impl Numbers {
         z ^ (z >> 31)
     }
 
-    /// From -1 to 1; on a grid, whole sixteenths, so that bounds and planes coincide, -0 among them.
+    /// From -1 to 1; on a grid, whole eighths, so that bounds and planes coincide, -0 among them.
     fn coordinate(&mut self, gridded: bool) -> f64 {
         let u = (self.next() >> 11) as f64 / (1_u64 << 53) as f64;
         let x = 2.0 * u - 1.0;

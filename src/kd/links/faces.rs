@@ -1,4 +1,5 @@
-//! Face trees: for each face that several leaves touch, a two-dimensional kd-tree of just these (Hapala & Havran 2011).
+//! Face trees: for each face that several leaves touch, a two-dimensional kd-tree of just these ("rope trees" of Havran, Bittner & Zara
+//! 1998; "neighbour link trees" of Hapala & Havran 2011).
 
 use std::collections::HashMap;
 
@@ -13,8 +14,6 @@ use super::{Faces, LEAF, Links, Target, beside, target};
 pub(super) struct FaceNode<T> {
     split: T,
     pub(super) axis: u32,
-    /// The tree's node that has this plane.
-    node: u32,
     /// What is below and above: a leaf, or another plane.
     pub(super) children: [u32; 2],
 }
@@ -28,6 +27,8 @@ pub struct FaceTrees<V: Vector> {
     /// The tree's links, those to covering nodes replaced by those to face trees.
     pub(super) links: Links<V>,
     pub(super) nodes: Vec<FaceNode<V::Real>>,
+    /// The tree's node that has each plane: what only probes are told.
+    origins: Vec<u32>,
     /// Planes of all face trees, those of equal parts each time.
     unshared: usize,
 }
@@ -37,6 +38,7 @@ struct Planter<'a, T: Planes> {
     tree: &'a T,
     numbers: &'a [u32],
     nodes: Vec<FaceNode<T::Real>>,
+    origins: Vec<u32>,
     unshared: usize,
     /// Parts there are, by the node and what is below and above its plane.
     planted: HashMap<(u32, [u32; 2]), u32>,
@@ -57,9 +59,9 @@ impl<T: Planes> Planter<'_, T> {
             self.nodes.push(FaceNode {
                 split,
                 axis: axis as u32,
-                node,
                 children,
             });
+            self.origins.push(node);
             let count = u32::try_from(self.nodes.len()).expect("fewer than 2^31 planes cut faces");
             assert!(count < LEAF, "fewer than 2^31 planes cut faces");
             count - 1
@@ -78,6 +80,7 @@ impl<V: Vector> FaceTrees<V> {
             tree,
             numbers: &links.numbers,
             nodes: Vec::new(),
+            origins: Vec::new(),
             unshared: 0,
             planted: HashMap::new(),
         };
@@ -92,16 +95,21 @@ impl<V: Vector> FaceTrees<V> {
             }
         }
         let Planter {
-            nodes, unshared, ..
+            nodes,
+            origins,
+            unshared,
+            ..
         } = planter;
         Self {
             links,
             nodes,
+            origins,
             unshared,
         }
     }
 
-    /// Bytes that a walk reads besides the tree itself: links, with leaves and their numbers, and face trees.
+    /// Bytes that a walk reads besides the tree itself: links, with leaves and their numbers, and face trees. What only probes are told is
+    /// not among them.
     pub fn bytes(&self) -> usize {
         self.links.bytes() + size_of_val(&self.nodes[..])
     }
@@ -111,7 +119,7 @@ impl<V: Vector> FaceTrees<V> {
         (self.nodes.len(), self.unshared)
     }
 
-    /// The way through the tree along these links, which must be its own.
+    /// The way through the tree along these links, which must be its own: through another tree it leads anywhere, or panics.
     pub fn walk<'a, T: Planes<Vector = V, Real = V::Real>>(
         &'a self,
         tree: &'a T,
@@ -138,13 +146,15 @@ impl<T: Planes> Walk for FacesLinked<'_, T> {
         probe: &mut P,
         leaf: impl FnMut(&[u32], &mut P) -> T::Real,
     ) {
-        let nodes = &self.faces.nodes;
+        let FaceTrees { nodes, origins, .. } = self.faces;
         let enter = |mut link: u32, way: &Way<T::Vector>, probe: &mut P| {
             while link & LEAF == 0 {
                 let plane = &nodes[link as usize];
-                probe.inner(plane.node);
+                // Without a branch, so that nothing is left of it where no probe asks.
+                let node = origins.get(link as usize).copied().unwrap_or_default();
+                probe.inner(node);
                 let (above, turn) = way.above(plane.axis as Axis, plane.split)?;
-                probe.turn(plane.node, turn);
+                probe.turn(node, turn);
                 link = plane.children[usize::from(above)];
             }
             Some(link & !LEAF)

@@ -80,7 +80,7 @@ fn links_lead_to_all_that_touches_a_face_and_to_no_larger_node() {
         let mut planes = 0;
         for (number, leaf) in links.leaves.iter().enumerate() {
             for axis in 0..3 {
-                let b = &tree.boxes[leaf.node as usize];
+                let b = &tree.boxes[links.nodes[number] as usize];
                 assert_eq!(leaf.planes[axis], [b.lo[axis], b.hi[axis]]);
                 for side in 0..2 {
                     let expected = touching(&links, number, axis, side);
@@ -116,10 +116,10 @@ fn links_lead_to_all_that_touches_a_face_and_to_no_larger_node() {
 
 #[test]
 fn bytes_are_those_of_all_parts() {
-    assert_eq!([size_of::<Leaf<f64>>(), size_of::<Leaf<f32>>()], [88, 60]);
+    assert_eq!([size_of::<Leaf<f64>>(), size_of::<Leaf<f32>>()], [80, 56]);
     for tree in trees() {
         let links = Links::of(&tree);
-        assert_eq!(links.bytes(), 88 * tree.leaves() + 4 * tree.nodes.len());
+        assert_eq!(links.bytes(), 80 * tree.leaves() + 4 * tree.nodes.len());
         let faces = FaceTrees::of(&tree, &links);
         assert_eq!(faces.bytes(), links.bytes() + 24 * faces.planes().0);
     }

@@ -166,7 +166,7 @@ pub(super) fn follow<M: Mode, T: Planes, P: Probe>(
     let up = [0, 1, 2].map(|axis| usize::from(line.inverse.parts()[axis] > zero));
     while let Some(number) = next {
         let here = &links.leaves[number as usize];
-        probe.leaf(here.node, here.count);
+        probe.leaf(links.node(number), here.count);
         rest.t1 = t1.min(leaf(tree.objects(here.first, here.count), probe));
         let (exit, axis, second) = exits(here, line, up);
         let widened = slack(padding, exit);

@@ -14,9 +14,9 @@ pub enum Way {
     Stack,
     /// From the root again after every leaf (Foley & Sugerman 2005).
     Restart,
-    /// Along links to neighbours (MacDonald & Booth 1990; Havran, Bittner & Zara 1998).
+    /// Along links to neighbours (MacDonald & Booth 1990; Popov, Guenther, Seidel & Slusallek 2007).
     Links,
-    /// Along links, and through a tree of its own where a face has several neighbours.
+    /// Along links, and through a tree of its own where a face has several neighbours (Havran, Bittner & Zara 1998).
     FaceTrees,
 }
 
