@@ -69,6 +69,24 @@ fn lines_are_those_of_the_plain_law_to_the_bit() {
     }
 }
 
+/// With wider instructions, if the processor has them, and without.
+#[test]
+fn lines_are_the_same_whatever_the_instructions() {
+    let world = Aabb::new(DVec3::new(1e3, -3.0, 0.1), DVec3::new(1e3 + 1.0, -2.9, 0.3));
+    let lines = |wide: bool| {
+        let mut uniforms = Uniforms::starting_at(3, 0);
+        // Not a whole number of blocks.
+        let points = (0..100_003).map(move |_| uniforms.next4());
+        let mut lines = Lines::new(&world, points);
+        lines.wide &= wide;
+        lines
+    };
+    let [wide, plain] = [true, false].map(|wide| lines(wide).map(|line| bits(&line)).collect());
+    let (wide, plain): (Vec<_>, Vec<_>) = (wide, plain);
+    assert_eq!(wide.len(), 100_003);
+    assert!(wide == plain);
+}
+
 /// Where faces meet, where the angle's quadrants do, and the ends of (0, 1).
 #[test]
 fn lines_of_borders_are_those_of_the_plain_law_to_the_bit() {
