@@ -106,13 +106,42 @@ impl Surface {
     }
 }
 
+/// A block's points, and its lines: each part in an array of its own, so that several lines fill a register. Of lines these are origin,
+/// direction and inverse.
+type Points = [[f64; BLOCK]; 4];
+type Parts = [[f64; BLOCK]; 9];
+
+impl Surface {
+    /// The lines of the first `n` points.
+    #[inline(always)]
+    fn lines(&self, [faces, along, discs, turns]: &Points, n: usize, parts: &mut Parts) {
+        let [mut sines, mut cosines] = [[0.0; BLOCK]; 2];
+        sines_and_cosines(&turns[..n], &mut sines, &mut cosines);
+        let [ox, oy, oz, dx, dy, dz, ix, iy, iz] = parts;
+        let surface = *self;
+        for k in 0..n {
+            let line = surface.line([faces[k], along[k], discs[k]], sines[k], cosines[k]);
+            [ox[k], oy[k], oz[k]] = line.origin.to_array();
+            [dx[k], dy[k], dz[k]] = line.direction.to_array();
+            [ix[k], iy[k], iz[k]] = line.inverse.to_array();
+        }
+    }
+
+    /// The same, compiled for AVX2, which rounds alike.
+    #[cfg(target_arch = "x86_64")]
+    #[target_feature(enable = "avx2")]
+    fn lines_wide(&self, points: &Points, n: usize, parts: &mut Parts) {
+        self.lines(points, n, parts);
+    }
+}
+
 /// The lines of points of the unit cube in four dimensions, through a box.
 pub(super) struct Lines<P> {
     surface: Surface,
     points: P,
-    /// Each part of a block's lines in an array of its own, so that several lines fill a register: origin, direction, inverse.
-    parts: [[f64; BLOCK]; 9],
-    /// Those of the block that are still to come.
+    /// Those of the block.
+    parts: Parts,
+    /// Which of them are still to come.
     left: Range<usize>,
     /// Whether the processor has AVX2.
     wide: bool,
@@ -133,50 +162,26 @@ impl<P: Iterator<Item = [f64; 4]>> Lines<P> {
     }
 
     /// The next block.
+    #[inline(never)]
     fn refill(&mut self) {
+        let mut points = [[0.0; BLOCK]; 4];
+        let mut n = 0;
+        for u in self.points.by_ref().take(BLOCK) {
+            let [faces, along, discs, turns] = &mut points;
+            [faces[n], along[n], discs[n], turns[n]] = u;
+            n += 1;
+        }
+        self.left = 0..n;
         #[cfg(target_arch = "x86_64")]
         if self.wide {
             // SAFETY: the processor has the instructions.
             #[allow(unsafe_code)]
             unsafe {
-                self.refill_wide();
+                self.surface.lines_wide(&points, n, &mut self.parts);
             }
             return;
         }
-        self.refill_plain();
-    }
-
-    #[cfg(target_arch = "x86_64")]
-    #[target_feature(enable = "avx2")]
-    fn refill_wide(&mut self) {
-        self.make_block();
-    }
-
-    #[inline(never)]
-    fn refill_plain(&mut self) {
-        self.make_block();
-    }
-
-    /// Compiled for each set of instructions; none of them rounds in another way.
-    #[inline(always)]
-    fn make_block(&mut self) {
-        let [mut faces, mut along, mut discs, mut turns] = [[0.0; BLOCK]; 4];
-        let mut n = 0;
-        for u in self.points.by_ref().take(BLOCK) {
-            [faces[n], along[n], discs[n], turns[n]] = u;
-            n += 1;
-        }
-        let [mut sines, mut cosines] = [[0.0; BLOCK]; 2];
-        sines_and_cosines(&turns[..n], &mut sines, &mut cosines);
-        let [ox, oy, oz, dx, dy, dz, ix, iy, iz] = &mut self.parts;
-        let surface = self.surface;
-        for k in 0..n {
-            let line = surface.line([faces[k], along[k], discs[k]], sines[k], cosines[k]);
-            [ox[k], oy[k], oz[k]] = line.origin.to_array();
-            [dx[k], dy[k], dz[k]] = line.direction.to_array();
-            [ix[k], iy[k], iz[k]] = line.inverse.to_array();
-        }
-        self.left = 0..n;
+        self.surface.lines(&points, n, &mut self.parts);
     }
 }
 
