@@ -77,9 +77,19 @@ pub fn markdown(
 }
 
 fn libraries(contests: &[Contest], peers: &[String]) -> String {
+    // Who is ours in all of these works is beside no one.
+    let beside = |peer: &&String| {
+        let mut works = contests.iter().filter(|c| against_libraries(c.work));
+        works.any(|contest| rows(contest).any(|row| row.peer == *peer))
+    };
+    let peers: Vec<&String> = peers.iter().filter(beside).collect();
     let mut text = format!(
         "| our rate over theirs | ours, M/s | {} |\n|:---|---:|{}\n",
-        peers.join(" | "),
+        peers
+            .iter()
+            .map(|p| p.as_str())
+            .collect::<Vec<_>>()
+            .join(" | "),
         "---:|".repeat(peers.len())
     );
     let mut last = None;
@@ -95,8 +105,8 @@ fn libraries(contests: &[Contest], peers: &[String]) -> String {
         let rows: Vec<Row> = rows(contest).collect();
         let ours_per_s = rows.first().map_or(0.0, |row| row.ours_per_s);
         let _ = write!(text, "| {} | {:.2} |", contest.scene, 1e-6 * ours_per_s);
-        for peer in peers {
-            match rows.iter().find(|row| row.peer == peer) {
+        for peer in &peers {
+            match rows.iter().find(|row| row.peer == *peer) {
                 Some(row) => {
                     let _ = write!(text, " {:.2} |", row.ratio.value);
                 }
