@@ -11,7 +11,7 @@ use common::scenes::{hard_rays, joints};
 use glam::{DVec3, Vec3};
 use proptest::prelude::*;
 use sahlab::exact::{Meeting, line_triangle};
-use sahlab::geom::{Aabb, Line, Objects, Ray, Real, Span, Targets, Triangle};
+use sahlab::geom::{Aabb, Line, Objects, Ray, Span, Targets, Triangle};
 use sahlab::kd::narrow::{narrow_line, narrow_triangles};
 use sahlab::kd::stream::{Lane, Lanes, RayStreams};
 use sahlab::kd::{
@@ -19,11 +19,6 @@ use sahlab::kd::{
 };
 use sahlab::rays::SurfaceLines;
 use sahlab::scene::Scene;
-
-/// A hit to the last bit; the wider number holds those of either precision.
-fn bits<R: Real>(hit: Option<Hit<R>>) -> Option<(u32, u64)> {
-    hit.map(|hit| (hit.object, hit.t.to_f64().to_bits()))
-}
 
 /// Hold streams against rays one by one: hits to the last bit, visits and tests as integers.
 fn assert_same<T: Planes<Vector: Lane + Debug>>(
@@ -36,7 +31,11 @@ fn assert_same<T: Planes<Vector: Lane + Debug>>(
     for ask in Ask::ALL {
         let mut work = Work::default();
         let trace = |ray| ask.trace(tree, objects, ray, &mut stack, &mut work);
-        let hits: Vec<_> = rays.iter().map(trace).map(bits).collect();
+        let hits: Vec<_> = rays
+            .iter()
+            .map(trace)
+            .map(|hit| hit.map(Hit::bits))
+            .collect();
         for lanes in Lanes::available() {
             let mut streamed = Vec::new();
             let mut streams = RayStreams::with(lanes);
@@ -44,7 +43,7 @@ fn assert_same<T: Planes<Vector: Lane + Debug>>(
             for _ in 0..2 {
                 let done = streams.trace(tree, objects, rays, ask, &mut streamed);
                 let what = format!("{what}, {ask}, {}", lanes.name());
-                let streamed: Vec<_> = streamed.iter().copied().map(bits).collect();
+                let streamed: Vec<_> = streamed.iter().map(|hit| hit.map(Hit::bits)).collect();
                 assert!(streamed == hits, "{what}: hits differ");
                 assert_eq!(done, work, "{what}");
             }

@@ -25,6 +25,11 @@ impl<T: Real> Hit<T> {
             _ => Some(Self { object, t }),
         }
     }
+
+    /// The hit to the last bit, to be compared: equal t may be zeros of either sign. An f64 holds the bits of an f32.
+    pub fn bits(self) -> (u32, u64) {
+        (self.object, self.t.to_f64().to_bits())
+    }
 }
 
 /// The nearest hit of a ray; at equal t the lowest object number.

@@ -1,7 +1,8 @@
 //! How numbers read in the tables of several kinds.
 
-use crate::report::number::digits_for;
+use crate::report::number::{counted, digits_for, grouped};
 use crate::report::table::Cell;
+use crate::study::records::PassTiming;
 
 /// A name.
 pub fn text(text: &str) -> Cell {
@@ -42,4 +43,17 @@ fn decimals(percent: f64) -> usize {
     } else {
         1
     }
+}
+
+/// How many of these times were disturbed, for captions; nothing of none.
+pub fn disturbed(times: &[&PassTiming], noun: &str) -> String {
+    if times.is_empty() {
+        return String::new();
+    }
+    let disturbed = times.iter().filter(|time| time.disturbed).count();
+    format!(
+        " Disturbed, halves over 3 % apart: {} of {}.",
+        grouped(disturbed as u64),
+        counted(times.len() as u64, noun)
+    )
 }

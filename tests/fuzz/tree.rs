@@ -239,7 +239,7 @@ fn hits(tree: &Tree, scene: &Scene, ray: &Ray, clipped: bool) {
         return;
     }
     let found = nearest(tree, objects, ray, &mut stack);
-    let bits = |hit: Option<Hit>| hit.map(|hit| (hit.object, hit.t.to_bits()));
+    let bits = |hit: Option<Hit>| hit.map(Hit::bits);
     assert_eq!(bits(found), bits(best), "{found:?}, {best:?}: {ray:?}");
     let all = all_watched(tree, objects, ray, &mut stack, NoProbe);
     assert_eq!(bits(all), bits(best), "{ray:?}");

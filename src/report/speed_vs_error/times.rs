@@ -1,7 +1,7 @@
 //! Seconds of what the other files tell the errors of.
 
 use super::SpeedVsError;
-use crate::report::number::{counted, grouped};
+use crate::report::shown::disturbed;
 use crate::study::records::{EnoughRecord, ErrorRecord, PassTiming, PlaneRecord, PrecisionRecord};
 
 /// What was timed.
@@ -59,15 +59,7 @@ impl SpeedVsError {
                 rows.filter_map(|row| self.build_timing(row)).collect()
             }
         };
-        let disturbed = timings.iter().filter(|timing| timing.disturbed).count();
-        if timings.is_empty() {
-            return String::new();
-        }
-        let of = counted(timings.len() as u64, "time");
-        format!(
-            " Disturbed, halves over 3 % apart: {} of {of}.",
-            grouped(disturbed as u64)
-        )
+        disturbed(&timings, "time")
     }
 
     /// Seconds of one replicate on one thread: its lines made, followed through the tree and counted.

@@ -131,30 +131,28 @@ impl Traversal {
 
     /// One way over all scenes, for one set of rays in one precision.
     pub fn of(&self, rays: &str, precision: &str, way: &str) -> Vec<Against<'_>> {
+        let rows = self.rows(rays, precision, way).into_iter();
+        rows.filter_map(|row| self.against(row)).collect()
+    }
+
+    fn rows(&self, rays: &str, precision: &str, way: &str) -> Vec<&TraversalRecord> {
         let own = self.walks.iter().filter(|row| {
             (row.rays.as_str(), row.precision.as_str(), row.way.as_str()) == (rays, precision, way)
         });
-        own.filter_map(|row| self.against(row)).collect()
+        own.collect()
     }
 
     /// Seconds of a way in single precision over those in double, by scene; the stack too is a way here.
     pub fn narrow_over_wide(&self, rays: &str, way: &str) -> Vec<(&str, f64)> {
-        let of = |precision: &'static str| {
-            let rows = self.walks.iter().filter(move |row| {
-                (row.rays.as_str(), row.precision.as_str(), row.way.as_str())
-                    == (rays, precision, way)
-            });
-            rows.filter_map(|row| Some((row, self.time_of(row)?.seconds)))
+        let [wide, narrow] = PRECISIONS.map(|precision| self.rows(rays, precision, way));
+        let ratio = |row: &TraversalRecord| {
+            let other = wide.iter().find(|other| other.cell == row.cell)?;
+            positive(self.time_of(row)?.seconds / self.time_of(other)?.seconds)
         };
-        let [wide, narrow] = PRECISIONS.map(of);
-        let wide: Vec<_> = wide.collect();
-        let ratio = |(row, seconds): (&'_ TraversalRecord, f64)| {
-            let (_, other) = wide.iter().find(|(other, _)| other.cell == row.cell)?;
-            positive(seconds / other)
-        };
-        narrow
-            .filter_map(|(row, seconds)| Some((row.scene.as_str(), ratio((row, seconds))?)))
-            .collect()
+        let known = narrow
+            .into_iter()
+            .filter_map(|row| Some((row.scene.as_str(), ratio(row)?)));
+        known.collect()
     }
 
     /// Every ratio of seconds at which a way is faster than the stack.
@@ -166,11 +164,10 @@ impl Traversal {
 
     /// How many ratios of seconds there are.
     pub fn ratios(&self) -> u64 {
-        let known = |row: &&TraversalRecord| {
-            let against = self.against(row).filter(|row| row.own.way != STACK);
-            against.is_some_and(|row| row.seconds().is_some())
-        };
-        self.walks.iter().filter(known).count() as u64
+        let others = self.walks.iter().filter(|row| row.way != STACK);
+        others
+            .filter_map(|row| self.against(row)?.seconds())
+            .count() as u64
     }
 
     /// The tree of a row, in its precision.

@@ -7,7 +7,8 @@ use crate::report::Figure;
 use crate::report::axis::extent;
 use crate::report::number::{counted, grouped};
 use crate::report::series::distinct;
-use crate::study::records::{PassTiming, Summary, TraversalRecord};
+use crate::report::shown;
+use crate::study::records::{Summary, TraversalRecord};
 
 /// What a set of rays is, as the heading of its panel.
 fn heading(number: usize, rays: &str) -> String {
@@ -149,34 +150,24 @@ pub const BELIEF: &str = "half of its interval by the scatter of runs of 512 ray
 
 /// How many of the times of rays were disturbed.
 pub fn disturbed(run: &Traversal) -> String {
-    told(run.walks.iter().filter_map(|row| run.time_of(row)), "time")
+    let times: Vec<_> = run
+        .walks
+        .iter()
+        .filter_map(|row| run.time_of(row))
+        .collect();
+    shown::disturbed(&times, "time")
 }
 
 /// How many of the times of builds were.
 pub fn disturbed_builds(run: &Traversal) -> String {
     let cells: Vec<&str> = distinct(run.links.iter().map(|row| row.cell.as_str()));
-    let what = PRECISIONS.map(|p| {
-        [
-            format!("{BUILD} links {p}"),
-            format!("{BUILD} face-trees {p}"),
-        ]
-    });
-    let what: Vec<String> = what
-        .into_iter()
-        .flatten()
-        .chain([BUILD.to_owned()])
-        .collect();
+    let mut what = vec![BUILD.to_owned()];
+    for precision in PRECISIONS {
+        what.extend(["links", "face-trees"].map(|way| format!("{BUILD} {way} {precision}")));
+    }
     let of_tree = |cell| what.iter().filter_map(move |what| run.timing(cell, what));
-    told(cells.into_iter().flat_map(of_tree), "build")
-}
-
-fn told<'r>(times: impl Iterator<Item = &'r PassTiming> + Clone, noun: &str) -> String {
-    let disturbed = times.clone().filter(|time| time.disturbed).count() as u64;
-    format!(
-        " Disturbed, halves over 3 % apart: {} of {}.",
-        grouped(disturbed),
-        counted(times.count() as u64, noun)
-    )
+    let times: Vec<_> = cells.into_iter().flat_map(of_tree).collect();
+    shown::disturbed(&times, "build")
 }
 
 /// How many rays of a set were timed, where not all were.

@@ -189,7 +189,7 @@ impl Tally {
             sum.links += own.links;
             sum.fall_backs += u64::from(own.fell_back);
             sum.thin_fall_backs += u64::from(own.fell_back && own.thin);
-            sum.differing_hits += u64::from(bits(own.hit) != bits(stack.hit));
+            sum.differing_hits += u64::from(own.hit.map(Hit::bits) != stack.hit.map(Hit::bits));
             if !own.fell_back {
                 sum.differing_leaves += u64::from(own.leaves != stack.leaves);
                 sum.broken += u64::from(!keeps_identities(way, own, stack));
@@ -197,11 +197,6 @@ impl Tally {
         }
         sum
     }
-}
-
-/// A hit to the last bit; the wider number holds both precisions' bits.
-fn bits<T: Real>(hit: Option<Hit<T>>) -> Option<(u32, u64)> {
-    hit.map(|hit| (hit.object, hit.t.to_f64().to_bits()))
 }
 
 /// What must hold of a ray that was not finished with a stack. Each leaf but the first is reached by a link or a restart. A restart
