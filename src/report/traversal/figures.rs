@@ -175,11 +175,14 @@ pub fn sample(run: &Traversal) -> String {
     let times = || run.walks.iter().filter_map(|row| run.time_of(row));
     let ends = extent(times().map(|time| time.timed_units as f64));
     match ends {
-        Some((least, most)) if times().any(|time| time.timed_units < time.units) => format!(
-            " Timed: {} to {} rays of each set, spread over it.",
-            grouped(least as u64),
-            grouped(most as u64)
-        ),
+        Some((least, most)) if times().any(|time| time.timed_units < time.units) => {
+            let most = grouped(most as u64);
+            let range = match grouped(least as u64) {
+                least if least == most => most,
+                least => format!("{least} to {most}"),
+            };
+            format!(" Timed: {range} rays of each set, spread over it.")
+        }
         _ => String::new(),
     }
 }
