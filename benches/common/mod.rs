@@ -4,10 +4,10 @@ use std::hint::black_box;
 use std::path::Path;
 use std::time::Instant;
 
-use sahlab::archive::processor;
 use sahlab::cost::CostModel;
 use sahlab::files::write_atomic;
 use sahlab::kd::{Rules, Strategy};
+use sahlab::study::machine::processor;
 
 /// Jobs to be compared with each other.
 #[derive(Default)]

@@ -35,9 +35,9 @@ use peers::report::{csv, locked, markdown};
 use peers::trial::{build_all, builds, compare, run, traces};
 use peers::{Mesh, OwnWays, Waiting, camera, contestants, isotropic};
 use rayon::ThreadPoolBuilder;
-use sahlab::archive::processor;
 use sahlab::files::write_atomic;
 use sahlab::scene::Scene;
+use sahlab::study::machine::processor;
 
 const ROUNDS: usize = 8;
 

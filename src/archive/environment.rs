@@ -26,19 +26,10 @@ pub(super) fn json() -> Vec<u8> {
         rustc: env!("SAHLAB_RUSTC"),
         target: env!("SAHLAB_TARGET"),
         os: std::env::consts::OS,
-        processor: processor(),
+        processor: crate::study::machine::processor(),
         threads: available_parallelism().ok().map(usize::from),
     };
     let mut json = serde_json::to_vec_pretty(&environment).expect("plain data");
     json.push(b'\n');
     json
-}
-
-/// The processor's name where the system tells it.
-pub fn processor() -> Option<String> {
-    let text = std::fs::read_to_string("/proc/cpuinfo").ok()?;
-    let line = text
-        .lines()
-        .find_map(|l| l.strip_prefix("model name")?.split_once(": "));
-    line.map(|(_, name)| name.trim().into())
 }

@@ -30,7 +30,6 @@ use sha2::{Digest, Sha256};
 use crate::study::plan::is_folder_name;
 use crate::study::store::{EXPERIMENT, TIMINGS};
 
-pub use environment::processor;
 pub use pack::{Packed, RunFolders, pack};
 pub use replay::{Compared, Difference, compare};
 pub use verify::{Fault, Verified, verify};

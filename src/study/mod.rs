@@ -9,6 +9,7 @@ pub mod identity;
 pub mod incidence;
 pub mod kernel;
 pub mod lines;
+pub mod machine;
 pub mod needed;
 pub mod plan;
 pub mod ray_sets;

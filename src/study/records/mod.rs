@@ -7,6 +7,7 @@
 
 mod assumptions;
 mod calibration;
+mod run_times;
 mod speed;
 mod split_cost;
 mod stability;
@@ -24,6 +25,7 @@ pub use calibration::{
     ChoiceRecord, ConstantRecord, ModelRecord, OrderOfTimesRecord, PredictionRecord, ShareRecord,
     TimeVerdicts,
 };
+pub use run_times::{Machine, MachineTimes, RunTimes};
 pub use speed::{
     CoverageRecord, EnoughRecord, ErrorRecord, ExponentRecord, PlaneRecord, PrecisionRecord,
     REFUSE_BELOW, WARN_BELOW,
