@@ -1,10 +1,21 @@
-//! Files that are either whole or absent.
+//! Files that are either whole or absent, whatever happens while they are written.
 
+use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs;
 use std::io::{self, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, Ordering};
 
-/// Write a file under a temporary name in the same folder, sync it, rename it. Makes the folder if it is missing.
+/// What the name of a file ends in that is not whole yet.
+const PART: &str = ".part";
+
+/// The files that this process is writing.
+static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+
+/// Write a file under a temporary name in the same folder, sync it, rename it, and sync the folder. Makes the folder if it is
+/// missing.
 pub fn write_atomic(path: &Path, bytes: &[u8]) -> io::Result<()> {
     write_atomic_with(path, |file| file.write_all(bytes))
 }
@@ -14,17 +25,146 @@ pub fn write_atomic_with(
     path: &Path,
     write: impl FnOnce(&mut fs::File) -> io::Result<()>,
 ) -> io::Result<()> {
-    let folder = path.parent().unwrap_or(Path::new("."));
+    let folder = match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
+    };
     fs::create_dir_all(folder)?;
-    let mut temporary = path.as_os_str().to_owned();
-    temporary.push(".part");
-    let mut file = fs::File::create(&temporary)?;
-    let written = write(&mut file);
+    let temporary = folder.join(temporary_name(path));
+    register(|unfinished| unfinished.insert(temporary.clone()));
+    let written = write_whole(&temporary, path, write);
     if written.is_err() {
         // The first failure is the one to tell.
         let _ = fs::remove_file(&temporary);
     }
+    register(|unfinished| unfinished.remove(&temporary));
     written?;
+    sync_folder(folder)
+}
+
+fn write_whole(
+    temporary: &Path,
+    path: &Path,
+    write: impl FnOnce(&mut fs::File) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut file = fs::File::create_new(temporary)?;
+    write(&mut file)?;
     file.sync_all()?;
-    fs::rename(&temporary, path)
+    fs::rename(temporary, path)
+}
+
+/// A name that no other process or thread gives to the same file at the same time.
+fn temporary_name(path: &Path) -> OsString {
+    static WRITTEN: AtomicU64 = AtomicU64::new(0);
+    let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
+    let mut name = OsString::from(".");
+    name.push(path.file_name().unwrap_or_default());
+    name.push(format!(".{}-{number}{PART}", std::process::id()));
+    name
+}
+
+/// A renamed file outlives a failure of the power only if its folder is on disk as well.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    // Elsewhere a folder cannot be opened.
+    if cfg!(unix) {
+        fs::File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+fn register(change: impl FnOnce(&mut BTreeSet<PathBuf>) -> bool) {
+    let mut unfinished = UNFINISHED.lock().unwrap_or_else(|e| e.into_inner());
+    change(&mut unfinished);
+}
+
+/// Whether a file's name is that of one that is not whole: what a process that was killed has left.
+pub fn is_unfinished(name: &str) -> bool {
+    name.ends_with(PART)
+}
+
+/// Remove what a killed process has left unfinished in a folder; nobody else may be writing there. No folder, nothing to do.
+pub fn remove_unfinished(folder: &Path) -> io::Result<()> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(()),
+        entries => entries?,
+    };
+    for entry in entries {
+        let entry = entry?;
+        if is_unfinished(&entry.file_name().to_string_lossy()) {
+            fs::remove_file(entry.path())?;
+        }
+    }
+    Ok(())
+}
+
+/// End this process, leaving no file of it unfinished.
+pub fn exit(code: i32) -> ! {
+    // Held to the end: nothing new is begun.
+    let unfinished = UNFINISHED.lock().unwrap_or_else(|e| e.into_inner());
+    for file in &*unfinished {
+        // It may be whole by now, under its own name.
+        let _ = fs::remove_file(file);
+    }
+    std::process::exit(code)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn names(folder: &Path) -> Vec<String> {
+        let entries = fs::read_dir(folder).expect("read");
+        let name = |e: io::Result<fs::DirEntry>| e.expect("read").file_name();
+        let mut names: Vec<_> = entries
+            .map(|e| name(e).to_string_lossy().into_owned())
+            .collect();
+        names.sort();
+        names
+    }
+
+    #[test]
+    fn whole_or_absent() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("below/a.csv");
+        write_atomic(&path, b"old").expect("written");
+        let failed = write_atomic_with(&path, |file| {
+            file.write_all(b"new")?;
+            let names = names(&folder.path().join("below"));
+            assert!(names.len() == 2 && is_unfinished(&names[0]), "{names:?}");
+            Err(io::Error::other("full"))
+        });
+        assert_eq!(failed.expect_err("fails").to_string(), "full");
+        assert_eq!(fs::read(&path).expect("read"), b"old");
+        assert_eq!(names(&folder.path().join("below")), ["a.csv"]);
+    }
+
+    #[test]
+    fn what_was_left_goes() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for name in [".a.csv.7-0.part", "a.csv"] {
+            fs::write(folder.path().join(name), "x").expect("written");
+        }
+        remove_unfinished(folder.path()).expect("removed");
+        assert_eq!(names(folder.path()), ["a.csv"]);
+        remove_unfinished(&folder.path().join("none")).expect("nothing to do");
+    }
+
+    #[test]
+    fn one_file_may_be_written_by_many_at_once() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        let path = folder.path().join("a");
+        std::thread::scope(|scope| {
+            for byte in 0..8_u8 {
+                let path = &path;
+                scope.spawn(move || {
+                    for _ in 0..20 {
+                        write_atomic(path, &[byte; 5000]).expect("written");
+                    }
+                });
+            }
+        });
+        let bytes = fs::read(&path).expect("read");
+        assert!(bytes.len() == 5000 && bytes.iter().all(|b| *b == bytes[0]));
+        assert_eq!(names(folder.path()), ["a"]);
+    }
 }

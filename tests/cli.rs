@@ -1,6 +1,8 @@
 //! The command line as a user meets it: exit codes, messages, files.
 #![allow(clippy::unwrap_used, missing_docs)]
 
+mod runs;
+
 use std::fs;
 use std::io::Read;
 use std::path::Path;
@@ -9,7 +11,8 @@ use std::process::{Command as Process, Stdio};
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
-use tempfile::{TempDir, tempdir};
+use runs::{contents, folder as with_experiment};
+use tempfile::tempdir;
 
 fn validate(folder: &Path) -> Command {
     let mut command = Command::cargo_bin("validate").unwrap();
@@ -36,31 +39,6 @@ lines = { slope_error = 0.1, min = 4096, max = 4096 }
 figure = { scene = "simple:uniform:100", strategy = "sah" }
 expect = { slope_within = 0.2, family = 0.01, gate = 0.001 }
 "#;
-
-fn with_experiment(text: &str) -> TempDir {
-    let folder = tempdir().unwrap();
-    fs::write(folder.path().join("e.toml"), text).unwrap();
-    folder
-}
-
-/// Every file below a folder with its bytes, in order; times left out.
-fn contents(folder: &Path) -> Vec<(String, Vec<u8>)> {
-    let mut all = Vec::new();
-    let mut open = vec![folder.to_path_buf()];
-    while let Some(here) = open.pop() {
-        for entry in fs::read_dir(here).unwrap() {
-            let path = entry.unwrap().path();
-            if path.is_dir() {
-                open.push(path);
-            } else if path.file_name().unwrap() != "timings.csv" {
-                let name = path.strip_prefix(folder).unwrap().display().to_string();
-                all.push((name, fs::read(path).unwrap()));
-            }
-        }
-    }
-    all.sort();
-    all
-}
 
 #[test]
 fn a_run_writes_data_tables_plots_and_a_summary() {
@@ -160,7 +138,7 @@ fn finished_cells_are_kept_unless_forced() {
     let cells = fs::read_dir(folder.path().join("data/e/cells")).unwrap();
     let lost = cells
         .map(|c| c.unwrap().path())
-        .find(|p| p.extension().unwrap() == "json")
+        .find(|p| p.display().to_string().ends_with(".times.json"))
         .unwrap();
     fs::remove_file(lost).unwrap();
     run(&[]).stderr(contains("through 1 cell\n").and(contains("1 of 2 cells")));
@@ -169,17 +147,15 @@ fn finished_cells_are_kept_unless_forced() {
     // Another seed is another cell, never the old one.
     run(&["--seed", "6"]).stderr("counting lines through 2 cells\n");
     assert!(before != contents(&first));
-    // The times of cells that are not this run's stay, and are found again.
+    // Times are this run's alone. They are put together from those of the cells, which stay.
+    let timings = folder.path().join("data/e/timings.csv");
+    let seconds = fs::read_to_string(&timings).unwrap();
+    assert_eq!(seconds.lines().count(), 1 + 2);
+    fs::remove_file(&timings).unwrap();
     run(&["--quiet"]).stdout(contains("speed"));
-    let timings = fs::read_to_string(folder.path().join("data/e/timings.csv")).unwrap();
-    assert_eq!(timings.lines().count(), 1 + 4);
-    fs::remove_file(folder.path().join("data/e/timings.csv")).unwrap();
-    run(&["--quiet"]);
-    let timings = fs::read_to_string(folder.path().join("data/e/timings.csv")).unwrap();
-    assert_eq!(
-        timings,
-        "cell,scene,strategy,build_s,count_s,threads,visits\n"
-    );
+    assert!(seconds != fs::read_to_string(&timings).unwrap());
+    run(&["--seed", "6"]).stderr(contains("2 of 2 cells"));
+    assert_eq!(seconds, fs::read_to_string(&timings).unwrap());
 }
 
 #[test]
@@ -204,7 +180,8 @@ fn damaged_cells_are_measured_again() {
         found.sort();
         found
     };
-    let (nodes, cells) = (files(".nodes.csv"), files(".json"));
+    let (nodes, mut cells) = (files(".nodes.csv"), files(".json"));
+    cells.retain(|path| !path.display().to_string().ends_with(".times.json"));
     assert_eq!((nodes.len(), cells.len()), (2, 2));
     let text = fs::read_to_string(&nodes[0]).unwrap();
     let digit = text.rfind('1').unwrap();

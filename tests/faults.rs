@@ -66,7 +66,7 @@ fn a_moved_plane_is_caught_wherever_it_matters() {
             let prediction = predict(&tree);
             let gate_with = |tree: &Tree, lines: u64| {
                 let plan = plan(&scene, rules, 1, lines);
-                gate(&compare(&plan, tree, &prediction, &()).unwrap().record)
+                gate(&compare(&plan, tree, &prediction, &()).unwrap().0.record)
             };
             for lines in LINES {
                 let p = gate_with(&tree, lines);
@@ -107,6 +107,7 @@ fn one_wrong_node_is_caught_by_its_tail() {
     prediction.p[small] *= 1.1;
     let bad = compare(&plan(&scene, rules, 1, 1 << 20), &tree, &prediction, &())
         .unwrap()
+        .0
         .record;
     assert!(bad.slope_p.unwrap() > 0.01, "the slope does not see it");
     assert!(bad.tail_p.unwrap() < GATE);
@@ -124,6 +125,7 @@ fn levels_are_what_they_say() {
     for seed in 0..SEEDS {
         let r = measure(&plan(&scene, rules, 1000 + seed, 1 << 14), &())
             .unwrap()
+            .0
             .record;
         let p = [r.slope_p, r.hotelling_p, r.free_p, r.tail_p].map(Option::unwrap);
         for (count, p) in below.iter_mut().zip(p) {
@@ -226,6 +228,7 @@ fn rare_events_raise_no_false_alarm() {
                     &(),
                 )
                 .unwrap()
+                .0
                 .record;
                 let p: Vec<f64> = [r.slope_p, r.tail_p, r.hotelling_p]
                     .into_iter()

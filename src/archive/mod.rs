@@ -37,7 +37,7 @@ pub use verify::{Fault, Verified, verify};
 /// Whether a file of a run, by its path below `data/RUN/`, holds times: the only files that differ from run to run.
 pub fn holds_times(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
-    name == TIMINGS || name.starts_with("times-")
+    name == TIMINGS || name.starts_with("times-") || name.ends_with(".times.json")
 }
 
 /// How much an archive may hold: no more is packed, and no more is read.
@@ -199,7 +199,12 @@ mod tests {
 
     #[test]
     fn times_are_told_by_their_name() {
-        for path in ["timings.csv", "times-x.csv", "tables/times-y.md"] {
+        for path in [
+            "timings.csv",
+            "times-x.csv",
+            "tables/times-y.md",
+            "cells/0.times.json",
+        ] {
             assert!(holds_times(path), "{path}");
         }
         for path in [

@@ -11,7 +11,7 @@ use super::{
     ArchiveError, Digesting, EXPERIMENT, Facts, Files, LIMITS, MANIFEST, environment, is_plain,
     manifest, readme,
 };
-use crate::files::write_atomic_with;
+use crate::files::{is_unfinished, write_atomic_with};
 use crate::study::Plan;
 use crate::study::plan::Overrides;
 
@@ -198,7 +198,7 @@ fn gather(
                 "the name of a file must be UTF-8 without '\\', ':' and control characters",
             )
         })?;
-        if kind.is_dir() && without == Some(name) || name.ends_with(".part") {
+        if kind.is_dir() && without == Some(name) || is_unfinished(name) {
             continue;
         }
         let path = format!("{prefix}/{name}");

@@ -4,6 +4,7 @@ pub mod assumptions;
 pub mod choices;
 mod chunks;
 pub mod cost_vs_work;
+mod guess;
 pub mod hits;
 pub mod identity;
 pub mod incidence;
@@ -11,11 +12,13 @@ pub mod kernel;
 pub mod lines;
 pub mod machine;
 pub mod needed;
+pub mod pieces;
 pub mod plan;
 pub mod ray_sets;
 pub mod record;
 pub mod records;
-pub mod resume;
+pub mod shards;
+pub mod share;
 pub mod speed_vs_error;
 pub mod split_cost;
 pub mod stability;
@@ -29,9 +32,11 @@ pub mod work;
 
 use thiserror::Error;
 
+use crate::REVISION;
 use crate::scene::Scene;
 
 pub use lines::LineRule;
+use pieces::Piece;
 pub use plan::{Kind, Plan, PlanError};
 use ray_sets::RaysOf;
 use store::{EXPERIMENT, Store, StoreError};
@@ -59,12 +64,29 @@ pub enum RunError {
     /// The folder cannot be written.
     #[error(transparent)]
     Store(#[from] StoreError),
+    /// Pieces that were to be there are not: identity and place of each.
+    #[error("{} pieces of the run are missing: {}", .0.len(), list(.0))]
+    Missing(Vec<(String, String)>),
 }
 
-/// Run a plan over its scenes, in its order, and write its files but for tables.
+/// The first few of what is missing, and how many more there are.
+fn list(missing: &[(String, String)]) -> String {
+    const SHOWN: usize = 5;
+    let shown = missing.iter().take(SHOWN);
+    let shown: Vec<String> = shown.map(|(id, place)| format!("{place} ({id})")).collect();
+    let more = match missing.len().saturating_sub(SHOWN) {
+        0 => String::new(),
+        n => format!(" and {n} more"),
+    };
+    shown.join(", ") + &more
+}
+
+/// Run a plan over its scenes, in its order, and write its files but for tables; where the store takes a share of the pieces, only
+/// these.
 ///
 /// # Errors
-/// If a file cannot be written, or if the program contradicts itself.
+/// If a file cannot be written, or if the program contradicts itself; and, where the store takes only what is there, if a piece
+/// is missing.
 pub fn run(
     plan: &Plan,
     scenes: &[Scene],
@@ -87,7 +109,27 @@ pub fn run(
     if let Some(record) = &plan.record {
         store.write(EXPERIMENT, record.recorded(scenes).as_bytes())?;
     }
+    shards::finish(store, &pieces(plan, scenes))?;
     Ok(())
+}
+
+/// The pieces of a run, in their canonical order.
+pub fn pieces(plan: &Plan, scenes: &[Scene]) -> Vec<Piece<()>> {
+    fn bare<P>(pieces: Vec<Piece<P>>) -> Vec<Piece<()>> {
+        pieces.into_iter().map(Piece::bare).collect()
+    }
+    match &plan.kind {
+        Kind::HitsVsArea(asked) => bare(hits::pieces(plan, asked, scenes)),
+        Kind::Strategies(asked) | Kind::Termination(asked) => {
+            bare(strategies::pieces(plan, asked, scenes))
+        }
+        Kind::SplitCost(asked) => bare(split_cost::pieces(plan, asked, scenes)),
+        Kind::CostVsWork(asked) => bare(cost_vs_work::pieces(plan, asked, scenes)),
+        Kind::Assumptions(asked) => bare(assumptions::pieces(plan, asked, scenes)),
+        Kind::SpeedVsError(asked) => bare(speed_vs_error::pieces(plan, asked, scenes)),
+        Kind::Stability(asked) => bare(stability::pieces(plan, asked, scenes)),
+        Kind::Traversal(asked) => bare(traversal::pieces(plan, asked, scenes)),
+    }
 }
 
 /// Whether the scenes have what the kind of experiment needs; the error names the first that has not.

@@ -1,9 +1,10 @@
 //! The files of a run under `data/NAME/`: finished cells are found again, so that a stopped run resumes.
 //!
-//! `cells/ID.json` holds a finished cell, `timings.csv` the seconds; the other files are put together from them at the
-//! end, and beside them goes `experiment.toml`, what was asked for. `README.md` says what all of them hold.
+//! `cells/ID.json` holds a finished cell, `cells/ID.times.json` the seconds of a finished piece of the run (a cell, or cells
+//! measured together) and where it was measured; the other files are put together from them at the end, and beside them goes
+//! `experiment.toml`, what was asked for. `README.md` says what all of them hold.
 
-use std::fs;
+use std::fs::{self, File, TryLockError};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -11,31 +12,72 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::files::{write_atomic, write_atomic_with};
+use crate::files::{remove_unfinished, write_atomic, write_atomic_with};
 
 use super::identity::digest;
+use super::pieces::PieceTimes;
 use super::records::Summary;
+use super::share::Share;
 
 /// A folder cannot be written.
 #[derive(Debug, Error)]
-#[error("{path}: cannot write", path = path.display())]
-pub struct StoreError {
-    path: PathBuf,
-    source: io::Error,
+pub enum StoreError {
+    /// The system refuses.
+    #[error("{path}: cannot write", path = path.display())]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// Another process writes there.
+    #[error(
+        "{path}: another run is writing in this folder; wait for it to end, or give another --out",
+        path = path.display()
+    )]
+    Busy {
+        /// The folder.
+        path: PathBuf,
+    },
 }
 
 /// The data folder of one experiment.
 pub struct Store {
     folder: PathBuf,
-    /// Whether finished cells are found again.
-    resumes: bool,
+    cells: Cells,
+    share: Option<Share>,
+}
+
+/// What becomes of the cells that are there.
+#[derive(Clone, Copy, PartialEq)]
+enum Cells {
+    /// They are found again, and others are measured.
+    Resumed,
+    /// They are measured again.
+    Forgotten,
+    /// They are all there is: nothing is measured.
+    All,
+}
+
+/// A folder that no other process writes while this is held; the system lets go of it when the process ends, however it ends.
+pub struct Claim {
+    _lock: File,
 }
 
 /// What the files of a run hold: goes beside them.
 const DICTIONARY: &str = include_str!("../../data/README.md");
 
-/// The file of seconds, the only one that is not reproducible.
+/// The file of seconds. It and those whose names begin with `times-` are the only ones that are not reproducible.
 pub const TIMINGS: &str = "timings.csv";
+
+/// The file that tells where and how long the run was measured.
+pub const RUN_TIMES: &str = "times-run.json";
+
+/// The folder of finished cells.
+pub const CELLS: &str = "cells";
+
+/// The folder of pictures that a run keeps as data.
+pub const PICTURES: &str = "pictures";
 
 /// The file that has the experiment's text and how it was run.
 pub const EXPERIMENT: &str = "experiment.toml";
@@ -53,31 +95,103 @@ impl Store {
     pub fn open(folder: &Path) -> Self {
         Self {
             folder: folder.into(),
-            resumes: true,
+            cells: Cells::Resumed,
+            share: None,
         }
     }
 
     /// The same, finding nothing that an earlier run has finished.
     pub fn forgetful(self) -> Self {
         Self {
-            resumes: false,
+            cells: Cells::Forgotten,
             ..self
         }
     }
 
-    /// Make the folder, with the description of its files: tells whether it can be written.
-    pub fn prepare(&self) -> Result<(), StoreError> {
-        self.write("README.md", DICTIONARY.as_bytes())
+    /// The same, finding all that it needs or refusing the run.
+    pub fn complete(self) -> Self {
+        Self {
+            cells: Cells::All,
+            ..self
+        }
+    }
+
+    /// The same for a share of the run's pieces.
+    pub fn sharing(self, share: Option<Share>) -> Self {
+        Self { share, ..self }
+    }
+
+    /// The share of the run's pieces that it is for, if not all.
+    pub fn share(&self) -> Option<Share> {
+        self.share
+    }
+
+    /// Whether nothing may be measured.
+    pub fn takes_only_what_is_there(&self) -> bool {
+        self.cells == Cells::All
+    }
+
+    /// Make the folder, with the description of its files, and keep others from writing there: tells whether it can be written.
+    pub fn prepare(&self) -> Result<Claim, StoreError> {
+        let claim = self.claim()?;
+        for below in ["", CELLS, PICTURES, "tables"] {
+            let folder = self.folder.join(below);
+            remove_unfinished(&folder).map_err(|source| self.wrong(below, source))?;
+        }
+        self.write("README.md", DICTIONARY.as_bytes())?;
+        Ok(claim)
+    }
+
+    fn claim(&self) -> Result<Claim, StoreError> {
+        let name = format!("{CELLS}/.lock");
+        let path = self.folder.join(&name);
+        let wrong = |source| self.wrong(&name, source);
+        fs::create_dir_all(self.folder.join(CELLS)).map_err(wrong)?;
+        let lock = File::create(path).map_err(wrong)?;
+        match lock.try_lock() {
+            Err(TryLockError::WouldBlock) => Err(StoreError::Busy {
+                path: self.folder.clone(),
+            }),
+            // Some file systems know no locks; there it is the user's to keep runs apart.
+            Ok(()) | Err(TryLockError::Error(_)) => Ok(Claim { _lock: lock }),
+        }
+    }
+
+    fn wrong(&self, name: &str, source: io::Error) -> StoreError {
+        StoreError::Write {
+            path: self.folder.join(name),
+            source,
+        }
     }
 
     /// A finished cell of this very program; `None` if it must be measured.
     pub fn finished<T: DeserializeOwned>(&self, id: &str) -> Option<T> {
-        if !self.resumes {
+        let found: Finished<T> = self.read_json(&cell_file(id))?;
+        (found.revision == crate::REVISION && found.id == id).then_some(found.result)
+    }
+
+    /// The times of a finished piece, by this very program.
+    pub fn times<T: DeserializeOwned>(&self, id: &str) -> Option<PieceTimes<T>> {
+        let found: PieceTimes<T> = self.read_json(&times_file(id))?;
+        (found.machine.revision == crate::REVISION).then_some(found)
+    }
+
+    /// Keep the times of a piece: the last of it that is written.
+    pub fn keep_times<T: Serialize>(
+        &self,
+        id: &str,
+        times: &PieceTimes<T>,
+    ) -> Result<(), StoreError> {
+        self.write_json(&times_file(id), times)
+    }
+
+    /// What an earlier run has left in a file, if it may be taken.
+    fn read_json<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+        if self.cells == Cells::Forgotten {
             return None;
         }
-        let text = fs::read_to_string(self.folder.join(cell_file(id))).ok()?;
-        let found: Finished<T> = serde_json::from_str(&text).ok()?;
-        (found.revision == crate::REVISION && found.id == id).then_some(found.result)
+        let text = fs::read_to_string(self.folder.join(name)).ok()?;
+        serde_json::from_str(&text).ok()
     }
 
     /// Keep a finished cell.
@@ -127,9 +241,14 @@ impl Store {
 
     /// Write the summary.
     pub fn write_summary(&self, summary: &Summary) -> Result<(), StoreError> {
-        let mut json = serde_json::to_vec_pretty(summary).expect("records are plain data");
+        self.write_json("summary.json", summary)
+    }
+
+    /// Write a file for reading, too.
+    pub fn write_json<T: Serialize>(&self, name: &str, content: &T) -> Result<(), StoreError> {
+        let mut json = serde_json::to_vec_pretty(content).expect("records are plain data");
         json.push(b'\n');
-        self.write("summary.json", &json)
+        self.write(name, &json)
     }
 
     /// As [`write`](Self::write), for what is too large to be held at once.
@@ -139,7 +258,7 @@ impl Store {
         write: impl FnOnce(&mut fs::File) -> io::Result<()>,
     ) -> Result<(), StoreError> {
         let path = self.folder.join(name);
-        write_atomic_with(&path, write).map_err(|source| StoreError { path, source })
+        write_atomic_with(&path, write).map_err(|source| StoreError::Write { path, source })
     }
 
     /// Remove a file that an earlier run may have left and this one has not.
@@ -147,7 +266,7 @@ impl Store {
         let path = self.folder.join(name);
         match fs::remove_file(&path) {
             Err(source) if source.kind() != io::ErrorKind::NotFound => {
-                Err(StoreError { path, source })
+                Err(StoreError::Write { path, source })
             }
             _ => Ok(()),
         }
@@ -156,12 +275,16 @@ impl Store {
     /// Write a file of the run.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let path = self.folder.join(name);
-        write_atomic(&path, bytes).map_err(|source| StoreError { path, source })
+        write_atomic(&path, bytes).map_err(|source| StoreError::Write { path, source })
     }
 }
 
 fn cell_file(id: &str) -> String {
-    format!("cells/{id}.json")
+    format!("{CELLS}/{id}.json")
+}
+
+fn times_file(id: &str) -> String {
+    format!("{CELLS}/{id}.times.json")
 }
 
 #[cfg(test)]
@@ -207,6 +330,8 @@ mod tests {
             "traversal.csv",
             "link-memory.csv",
             TIMINGS,
+            RUN_TIMES,
+            "shard.json",
             "summary.json",
             EXPERIMENT,
             "tables/",

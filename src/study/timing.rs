@@ -4,7 +4,6 @@
 //! chunks in some rounds, and the least time of a chunk over all rounds is free of it. Every round visits all trees in a
 //! fresh random order, so that slow minutes are shared. Two half-sets of rounds tell how far the result can be believed.
 
-use std::collections::HashSet;
 use std::hint::black_box;
 use std::ops::Range;
 use std::time::Instant;
@@ -21,8 +20,6 @@ use crate::scene::Scene;
 use super::hits::cell::{CellPlan, build_tree, on_one_thread};
 use super::plan::{Wrong, wrong_unless};
 use super::records::PassTiming;
-use super::resume::Extent;
-use super::store::{Store, StoreError, TIMINGS};
 
 /// What a row of builds is called.
 pub const BUILD: &str = "build";
@@ -49,14 +46,6 @@ pub struct Timing {
 }
 
 impl Timing {
-    /// What so many trees amount to: their counts, and each round of their times.
-    pub(super) fn extent(&self, trees: usize) -> Extent {
-        Extent {
-            things: trees,
-            units: trees as u64 * u64::from(1 + self.rounds),
-        }
-    }
-
     /// Whether the values make sense together.
     pub fn check(&self) -> Result<(), Wrong> {
         let Self {
@@ -390,13 +379,12 @@ pub fn halves(key: &'static str, times: u32) -> Result<(), Wrong> {
     })
 }
 
-/// Put the rows of trees in place of older ones of the same trees; rows of other runs stay.
-pub fn keep<'a>(
-    store: &Store,
+/// The rows of trees, one tree after the other, with their names.
+pub fn named<'a>(
     trees: impl Iterator<Item = &'a CellPlan<'a>>,
-    rows: Vec<Vec<PassTiming>>,
-) -> Result<(), StoreError> {
-    let named = trees.zip(rows).flat_map(|(tree, rows)| {
+    rows: impl IntoIterator<Item = Vec<PassTiming>>,
+) -> Vec<PassTiming> {
+    let of_tree = |(tree, rows): (&'a CellPlan<'a>, Vec<PassTiming>)| {
         rows.into_iter().map(|row| PassTiming {
             cell: tree.id.clone(),
             scene: tree.scene.name.clone(),
@@ -404,18 +392,8 @@ pub fn keep<'a>(
             stop: tree.rules.stop.to_string(),
             ..row
         })
-    });
-    keep_rows(store, named.collect())
-}
-
-/// Put rows, which name their cells, in place of older ones of the same cells; rows of other runs stay.
-pub fn keep_rows(store: &Store, rows: Vec<PassTiming>) -> Result<(), StoreError> {
-    let mut all: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let cells: HashSet<&str> = rows.iter().map(|row| &*row.cell).collect();
-    all.retain(|old| !cells.contains(&*old.cell));
-    all.extend(rows);
-    store.write_rows(TIMINGS, all)?;
-    Ok(())
+    };
+    trees.zip(rows).flat_map(of_tree).collect()
 }
 
 /// A row that says how it was measured and nothing else.

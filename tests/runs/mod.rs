@@ -1,5 +1,5 @@
 //! Small runs of an experiment, for tests of kinds as a user meets them.
-#![allow(clippy::unwrap_used)]
+#![allow(clippy::unwrap_used, dead_code)]
 
 use std::collections::BTreeMap;
 use std::fs;

@@ -148,7 +148,7 @@ fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
 
 fn run_again(runs: &[(Plan, Vec<Scene>)], common: &Common) -> Result<()> {
     for (plan, scenes) in runs {
-        run::prepare(plan, common)?;
+        let _claim = run::prepare(plan, common)?;
         run::run(plan, scenes, common, |_| String::new())?;
     }
     Ok(())

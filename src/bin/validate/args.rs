@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use sahlab::study::share::Share;
 
 /// How well does the surface area heuristic predict what ray tracing through a kd-tree really costs?
 ///
@@ -10,7 +11,8 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 /// validate-strategies, -cost, -assumptions, -speed, -stability and -traversal, and archives/validate.tar.gz, and ends with a
 /// summary.
 ///
-/// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run.
+/// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run; 130 stopped by Ctrl-C or by
+/// a signal, in which case the same command goes on where this one was.
 #[derive(Parser)]
 #[command(version, about, after_help = EXAMPLES)]
 pub struct Cli {
@@ -29,6 +31,15 @@ const EXAMPLES: &str = "Examples:
   validate scene model.obj --lines 2^20     your own mesh
   validate trace model.obj --rays r.csv     your own rays: what they hit and cost
   validate list strategies                  what can be named where";
+
+const MERGE_EXAMPLES: &str = "Example:
+  validate run experiments/strategies.toml --shard 1/2       on one machine
+  validate run experiments/strategies.toml --shard 2/2       on another
+  validate merge shards/strategies/1-of-2 shards/strategies/2-of-2";
+
+const PLAN_EXAMPLES: &str = "Examples:
+  validate plan experiments/strategies.toml --shards 6 --format slurm        > submit.sh; sh submit.sh
+  validate plan experiments/strategies.toml --shards 6 --format snakemake    > Snakefile; snakemake --cores 2";
 
 /// Flags of every command.
 #[derive(Args, Clone)]
@@ -81,6 +92,32 @@ pub enum Command {
         /// Experiment files.
         #[arg(required = true, value_name = "EXPERIMENT.toml")]
         experiments: Vec<PathBuf>,
+        /// Only share I of N, into shards/NAME/I-of-N, for `validate merge`; `auto`: as the task of a Slurm job array says.
+        #[arg(long, value_name = "I/N", value_parser = shard)]
+        shard: Option<Share>,
+    },
+    /// Put the shards of a run together: the same files, to the byte, as if one machine had measured all of it; but for times.
+    #[command(after_help = MERGE_EXAMPLES)]
+    Merge {
+        /// Folders of all shards of one run, e.g. shards/strategies/*.
+        #[arg(required = true, value_name = "DIR")]
+        folders: Vec<PathBuf>,
+    },
+    /// Print the script that runs an experiment in shards on many machines and puts them together.
+    ///
+    /// It calls `validate` from the PATH, or what the variable VALIDATE names, in the folder where it is submitted, with the
+    /// options --quick, --seed, --lines, --error and --out that are given here.
+    #[command(after_help = PLAN_EXAMPLES)]
+    Plan {
+        /// The experiment file.
+        #[arg(value_name = "EXPERIMENT.toml")]
+        experiment: PathBuf,
+        /// Into how many shards.
+        #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=10_000))]
+        shards: u16,
+        /// For which engine.
+        #[arg(long, value_enum)]
+        format: Engine,
     },
     /// One scene: its objects, a tree per strategy, predicted and counted work (of lines, of rays that stop, of your own), which
     /// strategy to take, and for which rays the prediction can be trusted.
@@ -182,6 +219,15 @@ pub enum Command {
     },
 }
 
+/// What runs the shards of an experiment.
+#[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
+pub enum Engine {
+    /// A shell script that submits a job array and a job that merges.
+    Slurm,
+    /// A Snakefile.
+    Snakemake,
+}
+
 /// What `list` lists.
 #[derive(Clone, Copy, PartialEq, Eq, ValueEnum)]
 pub enum Listed {
@@ -215,6 +261,14 @@ fn count(text: &str) -> Result<u64, String> {
         plain.parse().ok()
     };
     parsed.ok_or_else(|| "expected a whole number such as 1000000, 1e6 or 2^20".into())
+}
+
+/// A share of a run: 2/6, or what Slurm says.
+fn shard(text: &str) -> Result<Share, String> {
+    if text == "auto" {
+        return Share::of_slurm(|name| std::env::var(name).ok());
+    }
+    text.parse()
 }
 
 /// A share: 0.1% or 0.001.

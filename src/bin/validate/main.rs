@@ -8,6 +8,7 @@ mod publish;
 mod render;
 mod run;
 mod scene;
+mod shards;
 mod trace;
 
 use std::path::{Path, PathBuf};
@@ -16,7 +17,7 @@ use std::process::ExitCode;
 use anyhow::{Context, Result, bail};
 use clap::Parser;
 use sahlab::cost::CostModel;
-use sahlab::files::write_atomic;
+use sahlab::files::{self, write_atomic};
 use sahlab::kd::{Rules, Strategy};
 use sahlab::rays::{LineLaw, Source};
 use sahlab::report::{Run, screen, write_plots, write_tables};
@@ -96,6 +97,9 @@ const DEFAULT: usize = 7;
 
 fn main() -> ExitCode {
     let cli = Cli::parse();
+    if let Err(error) = stop_when_told() {
+        complain(&error);
+    }
     match execute(&cli) {
         Ok(true) => ExitCode::SUCCESS,
         Ok(false) => ExitCode::from(1),
@@ -105,6 +109,18 @@ fn main() -> ExitCode {
         }
     }
 }
+
+/// Ctrl-C and a request to terminate end the program between two files: none stays half-written.
+fn stop_when_told() -> Result<()> {
+    let stop = || {
+        note("stopped; what was finished is kept, and the same command goes on where this one was");
+        files::exit(STOPPED)
+    };
+    ctrlc::set_handler(stop).context("cannot watch for Ctrl-C")
+}
+
+/// The exit code of a program that was told to stop: 128 and the number of the signal that Ctrl-C sends.
+const STOPPED: i32 = 130;
 
 /// Do what was asked; says whether every expectation held.
 fn execute(cli: &Cli) -> Result<bool> {
@@ -157,11 +173,26 @@ fn execute(cli: &Cli) -> Result<bool> {
             }
             Ok(held)
         }
-        Some(Command::Run { experiments }) => {
+        Some(Command::Run { experiments, shard }) => {
             let plans = experiments
                 .iter()
                 .map(|path| Ok::<_, PlanError>((path.clone(), Plan::read(path, overrides)?)));
-            run_plans(plans.collect::<Result<_, _>>()?, common)
+            let plans = plans.collect::<Result<_, _>>()?;
+            match shard {
+                Some(share) => shards::run(&load(plans)?, *share, common),
+                None => run_plans(plans, common),
+            }
+        }
+        Some(Command::Merge { folders }) => shards::merge(folders, common),
+        Some(Command::Plan {
+            experiment,
+            shards,
+            format,
+        }) => {
+            let plan = Plan::read(experiment, overrides)?;
+            let script = shards::script(&plan, experiment, *shards, *format, common)?;
+            print(&script)?;
+            Ok(true)
         }
         Some(Command::Scene {
             scene,
@@ -228,15 +259,19 @@ fn execute(cli: &Cli) -> Result<bool> {
     }
 }
 
-/// Everything that can be wrong with the input is found before the first line is counted.
 fn run_plans(plans: Vec<(PathBuf, Plan)>, common: &Common) -> Result<bool> {
+    run_loaded(&load(plans)?, common, screen::study)
+}
+
+/// Everything that can be wrong with the input is found before the first line is counted.
+fn load(plans: Vec<(PathBuf, Plan)>) -> Result<Vec<(Plan, Vec<Scene>)>> {
     run::check_names(plans.iter().map(|(_, plan)| plan))?;
     let mut loaded = Vec::new();
     for (path, mut plan) in plans {
         let scenes = run::load_scenes(&mut plan, Some(&path))?;
         loaded.push((plan, scenes));
     }
-    run_loaded(&loaded, common, screen::study)
+    Ok(loaded)
 }
 
 /// Run plans over their scenes. Says whether every expectation held.
@@ -248,13 +283,13 @@ fn run_loaded(
     if common.dry_run {
         for (plan, scenes) in plans {
             let head = format!("{}\n{}: ", plan.question, plan.name);
-            print(&(head + &study::describe(plan, scenes)))?;
+            let pieces = study::pieces(plan, scenes);
+            print(&(head + &study::describe(plan, scenes) + &run::total(&pieces)))?;
         }
         return Ok(true);
     }
-    for (plan, _) in plans {
-        run::prepare(plan, common)?;
-    }
+    let claims = plans.iter().map(|(plan, _)| run::prepare(plan, common));
+    let _claims = claims.collect::<Result<Vec<_>>>()?;
     let runs = plans
         .iter()
         .map(|(plan, scenes)| run::run(plan, scenes, common, show))

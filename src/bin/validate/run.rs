@@ -6,9 +6,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
+use sahlab::files::remove_unfinished;
 use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
-use sahlab::study::store::Store;
+use sahlab::study::pieces::{Extent, Piece};
+use sahlab::study::store::{Claim, Store};
 use sahlab::study::{self, Plan};
 
 use crate::args::Common;
@@ -54,11 +56,15 @@ pub fn folders(plan: &Plan, common: &Common) -> [PathBuf; 2] {
     ["data", "plots"].map(|part| common.root().join(part).join(&plan.name))
 }
 
-/// Make a plan's folders: one that cannot be written is found before anything is measured.
-pub fn prepare(plan: &Plan, common: &Common) -> Result<()> {
+/// Make a plan's folders: one that cannot be written is found before anything is measured. They are this process's own while
+/// it holds what this gives.
+pub fn prepare(plan: &Plan, common: &Common) -> Result<Claim> {
     let [data, plots] = folders(plan, common);
-    Store::open(&data).prepare()?;
-    fs::create_dir_all(&plots).with_context(|| format!("{}: cannot write", plots.display()))
+    let claim = Store::open(&data).prepare()?;
+    let unwritable = || format!("{}: cannot write", plots.display());
+    fs::create_dir_all(&plots).with_context(unwritable)?;
+    remove_unfinished(&plots).with_context(unwritable)?;
+    Ok(claim)
 }
 
 /// Run a plan over its scenes and print what came out, unless it is wanted as JSON. Gives the run as read from its files.
@@ -68,6 +74,19 @@ pub fn run(
     common: &Common,
     show: fn(&Run) -> String,
 ) -> Result<Run> {
+    let [data, _] = folders(plan, common);
+    let store = Store::open(&data);
+    let store = if common.force {
+        store.forgetful()
+    } else {
+        store
+    };
+    measure(plan, scenes, &store, common)?;
+    report(plan, common, show)
+}
+
+/// Measure what the store has not yet, with progress and notes.
+pub fn measure(plan: &Plan, scenes: &[Scene], store: &Store, common: &Common) -> Result<()> {
     if !common.quiet {
         for scene in scenes {
             for text in &scene.notes {
@@ -75,16 +94,15 @@ pub fn run(
             }
         }
     }
-    let [data, plots] = folders(plan, common);
-    let store = Store::open(&data);
-    let store = if common.force {
-        store.forgetful()
-    } else {
-        store
-    };
     let progress = Progress::new(common.quiet);
-    study::run(plan, scenes, &store, &progress)?;
+    let done = study::run(plan, scenes, store, &progress);
     progress.finish();
+    Ok(done?)
+}
+
+/// Draw and tell what a finished run holds. Gives the run as read from its files.
+pub fn report(plan: &Plan, common: &Common, show: fn(&Run) -> String) -> Result<Run> {
+    let [data, plots] = folders(plan, common);
 
     // From here on only files are read.
     let run = report::read_run(&data)?;
@@ -96,6 +114,28 @@ pub fn run(
     }
     Ok(run)
 }
+
+/// What all pieces of a run amount to, in a line.
+pub fn total(pieces: &[Piece<()>]) -> String {
+    let sum = |part: fn(&Extent) -> f64| pieces.iter().map(|p| part(&p.extent)).sum::<f64>();
+    let lines = sum(|extent| extent.lines as f64);
+    let minutes = sum(|extent| extent.seconds) / 60.0;
+    let megabytes = sum(|extent| extent.bytes as f64) / 1e6 + REPORTED;
+    let time = if minutes < 2.0 {
+        format!("{:.0} seconds", (minutes * 60.0).ceil())
+    } else {
+        format!("{minutes:.0} minutes")
+    };
+    format!(
+        "in all: {} pieces, at least {:.2} million lines and rays, about {time} on two cores of 2024, about {megabytes:.0} MB on \
+         disk\n",
+        pieces.len(),
+        lines / 1e6,
+    )
+}
+
+/// Megabytes of the tables, figures and page of a run, roughly.
+const REPORTED: f64 = 3.0;
 
 /// Print summaries as JSON: one as itself, several as an array.
 pub fn print_json(runs: &[Run]) -> Result<()> {

@@ -16,10 +16,10 @@ pub mod visits;
 use crate::kd::expect::Metric;
 use crate::scene::Scene;
 
+use super::pieces::{Extent, Made, Piece, piece_by_piece};
 use super::records::{ExactRecord, OrderRecord, Summary, WorkRecord};
-use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError};
-use super::{Plan, RunError, Watcher, needed};
+use super::{Plan, RunError, Watcher, guess, needed};
 
 pub use asked::Assumptions;
 use cells::{Found, SceneCell, measure};
@@ -32,35 +32,57 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let cells: Vec<SceneCell<'_>> = scenes
-        .iter()
-        .map(|scene| SceneCell::of(plan, asked, scene))
-        .collect();
-    let found = cells.iter().map(|cell| store.finished(&cell.id)).collect();
-    let announce = |left: &[&SceneCell<'_>]| {
+    let announce = |left: &[&Piece<SceneCell<'_>>]| {
         watcher.announce(&format!(
             "tracing {} sets of rays through the trees of {} scenes",
             asked.rays.len(),
             left.len()
         ));
     };
-    let measure = |cell: &SceneCell<'_>| {
-        let scene = cell.scene;
-        watcher.begin(&scene.name);
-        let found = measure(asked, cell, watcher).map_err(|fault| RunError::Bug {
-            place: scene.name.clone(),
+    let measure = |piece: &Piece<SceneCell<'_>>| {
+        watcher.begin(&piece.place);
+        let found = measure(asked, &piece.of, watcher).map_err(|fault| RunError::Bug {
+            place: piece.place.clone(),
             fault,
         })?;
-        store.save(&cell.id, &found)?;
-        Ok(found)
+        store.save(&piece.id, &found)?;
+        Ok(Made::untimed(found))
     };
-    let extent = |cell: &SceneCell<'_>| Extent {
-        things: 1,
-        units: cell.trees.len() as u64,
-    };
-    let results = piece_by_piece(&cells, found, extent, "scenes", watcher, announce, measure)?;
-    write(plan, asked, &results, store)?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = |piece: &Piece<SceneCell<'_>>| store.finished(&piece.id);
+    let results = piece_by_piece(store, &pieces, "scenes", watcher, found, announce, measure)?;
+    if let Some(results) = results {
+        write(plan, asked, &results, store)?;
+    }
     Ok(())
+}
+
+/// The scenes of a plan, each with all its trees.
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &Assumptions,
+    scenes: &'a [Scene],
+) -> Vec<Piece<SceneCell<'a>>> {
+    let piece = |scene: &'a Scene| {
+        let cell = SceneCell::of(plan, asked, scene);
+        let trees = cell.trees.len();
+        let rays = guess::rays_of(scene, &asked.rays, asked.sizes());
+        // Every tree is measured under each metric besides.
+        let one = 10.0 * guess::tree(scene.bounds.len()) + 2.0 * guess::traced(rays);
+        Piece {
+            id: cell.id.clone(),
+            place: scene.name.clone(),
+            extent: Extent {
+                things: 1,
+                units: trees as u64,
+                lines: trees as u64 * rays,
+                seconds: trees as f64 * one,
+                bytes: guess::rows(200 * trees * asked.rays.len()),
+            },
+            of: cell,
+        }
+    };
+    scenes.iter().map(piece).collect()
 }
 
 /// Put the run's files together.

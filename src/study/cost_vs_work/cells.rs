@@ -8,13 +8,14 @@ use serde::{Deserialize, Serialize};
 use crate::kd::{Rules, Tree, predict};
 use crate::scene::Scene;
 use crate::study::chunks::spread;
-use crate::study::hits::cell::{CellPlan, compare, plant};
+use crate::study::hits::cell::{CellPlan, CellResult, compare, plant};
 use crate::study::identity::{digest, whole};
+use crate::study::pieces::{Extent, Made};
 use crate::study::ray_sets::{Number, Rays, gather};
 use crate::study::records::{CellRecord, PassTiming, RUN, StepRecord, WorkRecord};
 use crate::study::store::Store;
-use crate::study::timing::{CHUNK, Pass, Timed, blank, trace_times};
-use crate::study::{Plan, RunError, Watcher, timing, work};
+use crate::study::timing::{CHUNK, Pass, Timed, trace_times};
+use crate::study::{Plan, RunError, Watcher, guess, timing, work};
 
 use super::asked::CostVsWork;
 use super::steps;
@@ -63,23 +64,47 @@ pub fn rule(asked: &CostVsWork) -> timing::Timing {
     }
 }
 
-/// The finished trees of a scene, if all of them and their seconds are there: trees are timed together or not at all, and
-/// seconds count if they were measured as asked, by this very program.
-pub fn finished(
-    asked: &CostVsWork,
-    store: &Store,
-    cells: &[CellPlan],
-    times: &[PassTiming],
-) -> Option<Vec<Measured>> {
-    let same = blank(rule(asked), false);
-    let one = |cell: &CellPlan| {
-        let found: Measured = store.finished(&cell.id)?;
-        let own = times.iter().filter(|row| {
-            row.cell == cell.id && (row.rounds, &row.revision) == (same.rounds, &same.revision)
-        });
-        (own.count() == found.work.len()).then_some(found)
+/// Identity of the trees of a scene together: trees are timed together or not at all, and in the same way.
+pub fn identity(asked: &CostVsWork, cells: &[CellPlan]) -> String {
+    let ids: Vec<&str> = cells.iter().map(|cell| &*cell.id).collect();
+    digest(format!("{ids:?} {}", asked.timing.rounds).as_bytes())
+}
+
+/// The finished trees of a scene, if all of them are there.
+pub fn finished(store: &Store, cells: &[CellPlan]) -> Option<Vec<Measured>> {
+    cells.iter().map(|cell| store.finished(&cell.id)).collect()
+}
+
+/// How many rays of each set.
+fn number(asked: &CostVsWork) -> Number {
+    Number {
+        rays: asked.number,
+        pixels: asked.pixels,
+        error: asked.error,
+    }
+}
+
+/// What the trees of a scene amount to.
+pub fn extent(asked: &CostVsWork, cells: &[CellPlan]) -> Extent {
+    let Some(CellPlan { scene, .. }) = cells.first() else {
+        return Extent::default();
     };
-    cells.iter().map(one).collect()
+    let lines = asked.lines.at_least();
+    let rays = guess::rays_of(scene, &asked.rays, number(asked));
+    let sets = asked.rays.len();
+    let timed = rays.min(sets as u64 * asked.timing.rays);
+    let seconds = guess::tree(scene.bounds.len())
+        + guess::streamed(lines)
+        + guess::traced(rays)
+        + f64::from(asked.timing.rounds) * guess::timed(timed);
+    let trees = cells.len();
+    Extent {
+        things: trees,
+        units: trees as u64 * u64::from(1 + asked.timing.rounds),
+        lines: trees as u64 * (lines + rays),
+        seconds: trees as f64 * seconds,
+        bytes: guess::rows((8 + 8 * sets) * trees),
+    }
 }
 
 /// The chunks of a set that are timed: as many as the tree affords in which a ray takes the most work. The same in every tree of
@@ -96,23 +121,18 @@ pub fn measure(
     cells: &[CellPlan],
     store: &Store,
     watcher: &impl Watcher,
-) -> Result<Vec<Measured>, RunError> {
+) -> Result<Made<Vec<Measured>, PassTiming>, RunError> {
     let Some(CellPlan {
         scene, line_seed, ..
     }) = cells.first()
     else {
-        return Ok(Vec::new());
+        return Ok(Made::nothing());
     };
     watcher.begin(&format!("{} rays", scene.name));
     let bug = |place: String| move |fault: String| RunError::Bug { place, fault };
-    let number = Number {
-        rays: asked.number,
-        pixels: asked.pixels,
-        error: asked.error,
-    };
     let rules: Vec<Rules> = cells.iter().map(|cell| cell.rules).collect();
-    let sets =
-        gather(scene, &asked.rays, number, &rules, *line_seed).map_err(bug(scene.name.clone()))?;
+    let sets = gather(scene, &asked.rays, number(asked), &rules, *line_seed);
+    let sets = sets.map_err(bug(scene.name.clone()))?;
     let mut trees: Vec<Tree> = Vec::new();
     let mut counted = Vec::new();
     for cell in cells {
@@ -168,8 +188,10 @@ pub fn measure(
     let rows = trace_times(scene, &trees, passes, rule(asked), plan.seed, || {
         watcher.done(cells.len() as u64);
     });
-    timing::keep(store, cells.iter(), rows)?;
-    Ok(measured)
+    Ok(Made {
+        result: measured,
+        times: timing::named(cells.iter(), rows),
+    })
 }
 
 /// Visits and tests of a ray.
@@ -184,7 +206,7 @@ fn count(
     sets: &[Rays],
 ) -> Result<(CellRecord, Vec<WorkRecord>), String> {
     let prediction = predict(tree);
-    let record = compare(cell, tree, &prediction, &())?.record;
+    let (CellResult { record, .. }, _) = compare(cell, tree, &prediction, &())?;
     let objects = &cell.scene.objects;
     let row = |rays: &Rays| {
         work::count(tree, objects, rays).record(cell, rays, cell.rules.cost, &prediction)

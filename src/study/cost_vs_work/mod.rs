@@ -16,8 +16,8 @@ use crate::scene::Scene;
 
 use super::hits;
 use super::hits::cell::CellPlan;
+use super::pieces::{Piece, piece_by_piece};
 use super::records::{CellRecord, Estimate, PassTiming, Summary, WorkRecord};
-use super::resume::piece_by_piece;
 use super::store::{Store, TIMINGS};
 use super::{Plan, RunError, Watcher, needed};
 
@@ -32,27 +32,22 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let planned = scenes
-        .iter()
-        .map(|scene| cells::of_scene(plan, asked, scene));
-    let planned: Vec<Vec<CellPlan>> = planned.collect();
-    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let found = planned
-        .iter()
-        .map(|cells| cells::finished(asked, store, cells, &times));
-    let announce = |left: &[&Vec<CellPlan>]| {
-        let trees: usize = left.iter().map(|cells| cells.len()).sum();
+    let announce = |left: &[&Piece<Vec<CellPlan>>]| {
+        let trees: usize = left.iter().map(|piece| piece.extent.things).sum();
         watcher.announce(&format!("tracing rays through {trees} trees"));
     };
     let measured = piece_by_piece(
-        &planned,
-        found.collect(),
-        |cells| cells::rule(asked).extent(cells.len()),
+        store,
+        &pieces(plan, asked, scenes),
         "trees",
         watcher,
+        |piece| cells::finished(store, &piece.of),
         announce,
-        |cells| cells::measure(plan, asked, cells, store, watcher),
+        |piece| cells::measure(plan, asked, &piece.of, store, watcher),
     )?;
+    let Some(measured) = measured else {
+        return Ok(());
+    };
     let measured: Vec<Measured> = measured.into_iter().flatten().collect();
     let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
     calibration::write(plan, asked, &measured, &times, store, watcher)?;
@@ -85,6 +80,24 @@ pub(super) fn run(
         ..plan.summary()
     })?;
     Ok(())
+}
+
+/// The trees of each scene, which are measured together.
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &CostVsWork,
+    scenes: &'a [Scene],
+) -> Vec<Piece<Vec<CellPlan<'a>>>> {
+    let piece = |scene: &'a Scene| {
+        let cells = cells::of_scene(plan, asked, scene);
+        Piece {
+            id: cells::identity(asked, &cells),
+            place: scene.name.clone(),
+            extent: cells::extent(asked, &cells),
+            of: cells,
+        }
+    };
+    scenes.iter().map(piece).collect()
 }
 
 /// The cells of a dry run, a line each.

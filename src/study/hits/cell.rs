@@ -83,20 +83,20 @@ pub struct CellResult {
     /// The rows of `nodes.csv`, if asked for.
     #[serde(skip)]
     pub nodes: Option<Vec<NodeRecord>>,
-    /// The row of `timings.csv`.
-    #[serde(skip)]
-    pub timing: Option<TimingRecord>,
 }
 
 /// First lines that are traversed one by one for standard errors, and that the streams are checked against.
 pub const PILOT: u64 = 1 << 16;
 
-/// Measure one cell on the current rayon pool.
+/// Measure one cell on the current rayon pool; gives its row of `timings.csv` too.
 ///
 /// # Errors
 /// If an integer identity fails, if the streams and the plain traversal disagree on any node, or if the tree fails its
 /// audit: each is a bug in the program, never a property of the scene.
-pub fn measure(plan: &CellPlan<'_>, watcher: &impl Watcher) -> Result<CellResult, String> {
+pub fn measure(
+    plan: &CellPlan<'_>,
+    watcher: &impl Watcher,
+) -> Result<(CellResult, TimingRecord), String> {
     measure_with(plan, &[], watcher)
 }
 
@@ -108,13 +108,10 @@ pub fn measure_with(
     plan: &CellPlan<'_>,
     sets: &[&Rays],
     watcher: &impl Watcher,
-) -> Result<CellResult, String> {
+) -> Result<(CellResult, TimingRecord), String> {
     let (tree, build_s) = plant(plan.scene, &plan.rules)?;
     let prediction = predict(&tree);
-    let mut result = compare(plan, &tree, &prediction, watcher)?;
-    if let Some(timing) = &mut result.timing {
-        timing.build_s = build_s;
-    }
+    let (mut result, timing) = compare(plan, &tree, &prediction, watcher)?;
     for rays in sets {
         let cast = rays.casts.len() as u64;
         watcher.revise(0, cast);
@@ -123,7 +120,7 @@ pub fn measure_with(
         result.work.push(record);
         watcher.done(cast);
     }
-    Ok(result)
+    Ok((result, TimingRecord { build_s, ..timing }))
 }
 
 /// Build a tree on one thread, with the seconds it took, and prove its invariants.
@@ -156,7 +153,7 @@ pub fn build_tree(scene: &Scene, rules: &Rules) -> Tree {
     build_objects(&scene.objects, &scene.bounds, scene.world, rules)
 }
 
-/// Count lines through a tree and hold the counts against a prediction.
+/// Count lines through a tree and hold the counts against a prediction; gives the seconds too, but for building the tree.
 ///
 /// # Errors
 /// As [`measure`], but for the audit.
@@ -165,7 +162,7 @@ pub fn compare(
     tree: &Tree,
     prediction: &Prediction,
     watcher: &impl Watcher,
-) -> Result<CellResult, String> {
+) -> Result<(CellResult, TimingRecord), String> {
     // Pilot: the first lines one by one, for the standard errors and, where no error of C settles it, the number of lines.
     let lines = SurfaceLines {
         world: plan.scene.world,
@@ -216,21 +213,22 @@ pub fn compare(
         counts: &counts,
     };
     let nodes = found.nodes();
-    Ok(CellResult {
+    let timing = TimingRecord {
+        cell: plan.id.clone(),
+        scene: plan.scene.name.clone(),
+        strategy: plan.rules.strategy.name(),
+        build_s: 0.0,
+        count_s,
+        threads: rayon::current_num_threads() as u64,
+        visits: counts.visits(),
+    };
+    let result = CellResult {
         record: found.record(&nodes),
         bins: found.bins(&nodes),
         work: Vec::new(),
-        timing: Some(TimingRecord {
-            cell: plan.id.clone(),
-            scene: plan.scene.name.clone(),
-            strategy: plan.rules.strategy.name(),
-            build_s: 0.0,
-            count_s,
-            threads: rayon::current_num_threads() as u64,
-            visits: counts.visits(),
-        }),
         nodes: plan.nodes.then_some(nodes),
-    })
+    };
+    Ok((result, timing))
 }
 
 /// The pilot's lines again, as a stream: equal to the plain traversal on every node.

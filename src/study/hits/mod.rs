@@ -17,11 +17,10 @@ use crate::stats::{normal_quantile, simultaneous_quantile};
 
 use super::choices::choices;
 use super::identity::{digest, whole};
-use super::records::{
-    CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, TimingRecord, WorkRecord,
-};
-use super::store::{Store, StoreError, TIMINGS};
-use super::{LEVEL, Plan, RunError, Watcher, needed};
+use super::pieces::{Extent, Made, Piece, piece_by_piece};
+use super::records::{CellRecord, Estimate, NodeRecord, SamplerRecord, Summary, WorkRecord};
+use super::store::{CELLS, Store, StoreError};
+use super::{LEVEL, Plan, RunError, Watcher, guess, needed};
 
 pub use asked::HitsVsArea;
 use cell::{CellPlan, CellResult, measure_with};
@@ -33,7 +32,11 @@ fn rules(plan: &Plan, asked: &HitsVsArea) -> Vec<Rules> {
 }
 
 /// The cells of a plan in canonical order: scenes, then strategies.
-fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPlan<'a>> {
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &HitsVsArea,
+    scenes: &'a [Scene],
+) -> Vec<Piece<CellPlan<'a>>> {
     let mut cells = Vec::new();
     for scene in scenes {
         let rules = rules(plan, asked);
@@ -47,10 +50,30 @@ fn cells<'a>(plan: &Plan, asked: &HitsVsArea, scenes: &'a [Scene]) -> Vec<CellPl
             if let Some(work) = &work {
                 cell.id = digest(format!("{} {work}", cell.id).as_bytes());
             }
-            cells.push(cell);
+            cells.push(Piece {
+                id: cell.id.clone(),
+                place: format!("{} {}", scene.name, cell.rules.strategy),
+                extent: extent(asked, &cell),
+                of: cell,
+            });
         }
     }
     cells
+}
+
+/// What a cell amounts to.
+fn extent(asked: &HitsVsArea, cell: &CellPlan) -> Extent {
+    let traced = asked.work.as_ref().map_or(0, |work| work.size(cell.scene));
+    let lines = asked.lines.at_least();
+    let objects = cell.scene.bounds.len();
+    let nodes = if cell.nodes { objects } else { 0 };
+    Extent {
+        things: 1,
+        units: asked.lines.guess(),
+        lines: lines + traced,
+        seconds: guess::tree(objects) + guess::streamed(lines) + guess::traced(traced),
+        bytes: guess::rows(30) + guess::rows(nodes),
+    }
 }
 
 /// A finished cell on disk: the nodes lie beside it.
@@ -62,7 +85,7 @@ struct Kept {
 }
 
 fn nodes_file(id: &str) -> String {
-    format!("cells/{id}.nodes.csv")
+    format!("{CELLS}/{id}.nodes.csv")
 }
 
 /// A finished cell, with its nodes if they are needed: taken only if its nodes are those written with it.
@@ -84,17 +107,8 @@ fn keep(store: &Store, result: &CellResult) -> Result<(), StoreError> {
         Some(nodes) => Some(store.write_rows(&nodes_file(id), nodes)?),
         None => None,
     };
-    if let Some(timing) = &result.timing {
-        // Rows of earlier runs stay.
-        let mut rows: Vec<TimingRecord> = store.read_rows(TIMINGS, None).unwrap_or_default();
-        rows.retain(|row| row.cell != *id);
-        rows.push(timing.clone());
-        rows.sort_by(|a, b| a.cell.cmp(&b.cell));
-        store.write_rows(TIMINGS, rows)?;
-    }
     let result = CellResult {
         nodes: None,
-        timing: None,
         ..result.clone()
     };
     store.save(
@@ -114,50 +128,44 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let planned = cells(plan, asked, scenes);
-    let found: Vec<_> = planned.iter().map(|cell| finished(store, cell)).collect();
-    let controls = asked.controls.map_or(0, |c| samplers::LAWS * c.lines);
-    watcher.expect(planned.len() as u64 * asked.lines.guess() + controls);
-    let already = found.iter().flatten().count();
-    if already > 0 {
-        watcher.note(&format!(
-            "{already} of {} cells were finished by an earlier run (--force measures them again)",
-            planned.len()
-        ));
-    }
-    let left = planned.len() - already;
-    if left > 0 {
-        let s = if left == 1 { "" } else { "s" };
-        watcher.announce(&format!("counting lines through {left} cell{s}"));
-    }
-    let mut results = Vec::new();
+    let announce = |left: &[&Piece<CellPlan>]| {
+        let s = if left.len() == 1 { "" } else { "s" };
+        watcher.announce(&format!("counting lines through {} cell{s}", left.len()));
+    };
     let mut gathered = Gathered::new(asked.work.as_ref());
-    for (cell, found) in planned.iter().zip(found) {
-        if let Some(found) = found {
-            watcher.skip(asked.lines.guess());
-            results.push(found);
-            continue;
-        }
-        let place = format!("{} {}", cell.scene.name, cell.rules.strategy);
-        watcher.begin(&place);
-        let result = gathered
+    let measure = |piece: &Piece<CellPlan<'_>>| {
+        let Piece {
+            place, of: cell, ..
+        } = piece;
+        watcher.begin(place);
+        let (result, timing) = gathered
             .of(cell.scene, &rules(plan, asked), cell.line_seed)
             .and_then(|sets| measure_with(cell, &sets, watcher))
-            .map_err(|fault| RunError::Bug { place, fault })?;
+            .map_err(|fault| RunError::Bug {
+                place: place.clone(),
+                fault,
+            })?;
         keep(store, &result)?;
-        results.push(result);
-    }
+        Ok(Made {
+            result,
+            times: vec![timing],
+        })
+    };
+    let pieces = pieces(plan, asked, scenes);
+    let found = |piece: &Piece<CellPlan>| finished(store, &piece.of);
+    let results = piece_by_piece(store, &pieces, "cells", watcher, found, announce, measure)?;
+    let Some(results) = results else {
+        return Ok(());
+    };
     let mut laws = samplers::check_scenes(plan.seed, asked.lines, scenes);
     if let Some(controls) = asked.controls {
+        watcher.revise(0, samplers::LAWS * controls.lines);
         watcher.begin("laws of lines");
         laws.extend(samplers::check_laws(plan.seed, controls, watcher));
     }
     write(plan, asked, &results, &laws, store)?;
     Ok(())
 }
-
-/// `timings.csv` without a row: for a run whose cells were all found, but not their seconds.
-const TIMINGS_HEADER: &str = "cell,scene,strategy,build_s,count_s,threads,visits\n";
 
 /// Put the run's files together. The seconds are there already.
 fn write(
@@ -172,9 +180,6 @@ fn write(
     store.write_rows("bins.csv", results.iter().flat_map(|r| &r.bins))?;
     let nodes = results.iter().filter_map(|r| r.nodes.as_ref()).flatten();
     store.write_rows::<&NodeRecord>("nodes.csv", nodes)?;
-    if store.read_rows::<TimingRecord>(TIMINGS, None).is_none() {
-        store.write(TIMINGS, TIMINGS_HEADER.as_bytes())?;
-    }
     store.write_rows("samplers.csv", samplers)?;
     write_work(asked, results, store)?;
     let work: Vec<&WorkRecord> = results.iter().flat_map(|r| &r.work).collect();
@@ -209,12 +214,15 @@ pub(super) fn describe(plan: &Plan, asked: &HitsVsArea, scenes: &[Scene]) -> Str
             asked.lines.at_least()
         )
     };
-    let cells = cells(plan, asked, scenes);
+    let pieces = pieces(plan, asked, scenes);
     let mut head = format!("stop {}, seed {}\n", asked.stop, plan.seed);
     if let Some(work) = &asked.work {
         head += &format!("{}\n", work.describe());
     }
-    head + &cells.iter().map(line).collect::<String>()
+    head + &pieces
+        .iter()
+        .map(|piece| line(&piece.of))
+        .collect::<String>()
 }
 
 /// Estimates of every cell, each with its own interval and one that holds for all together.
@@ -276,31 +284,5 @@ fn summarise(
         verdicts,
         estimates,
         ..plan.summary()
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_header_of_the_seconds_is_that_of_a_row() {
-        let row = TimingRecord {
-            cell: "c".into(),
-            scene: "s".into(),
-            strategy: "sah".into(),
-            build_s: 1.0,
-            count_s: 2.0,
-            threads: 3,
-            visits: 4,
-        };
-        let mut writer = csv::Writer::from_writer(Vec::new());
-        writer.serialize(row).expect("a flat record");
-        let written = writer.into_inner().expect("writing to memory");
-        assert!(written.starts_with(TIMINGS_HEADER.as_bytes()));
-        let dictionary = include_str!("../../../data/README.md");
-        for column in TIMINGS_HEADER.trim_end().split(',') {
-            assert!(dictionary.contains(&format!("`{column}`")), "{column}");
-        }
     }
 }

@@ -5,9 +5,9 @@ use serde::Deserialize;
 use crate::geom::Cast;
 use crate::kd::{Ask, Rules};
 use crate::scene::Scene;
-use crate::study::identity;
 use crate::study::plan::{Wrong, wrong_unless};
 use crate::study::ray_sets::{Number, Rays, RaysOf, gather};
+use crate::study::{guess, identity};
 
 /// Which rays: the section `[work]`.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -73,6 +73,21 @@ impl Work {
         )
     }
 
+    /// Rays through each tree of a scene; where a wanted error settles how many, the fewest.
+    pub fn size(&self, scene: &Scene) -> u64 {
+        let own = self.own.as_ref().map_or(0, |own| own.rays.casts.len());
+        guess::rays_of(scene, &self.rays, self.sizes()) + own as u64
+    }
+
+    /// How many rays of each set.
+    fn sizes(&self) -> Number {
+        Number {
+            rays: self.number,
+            pixels: self.pixels,
+            error: self.error,
+        }
+    }
+
     /// The sets in words.
     pub fn describe(&self) -> String {
         let own = self.own.iter();
@@ -114,7 +129,7 @@ impl Own {
 /// The rays of one scene after the other, whose trees have these rules, gathered when the first tree that needs them comes.
 pub(super) struct Gathered<'a> {
     asked: Option<&'a Work>,
-    scene: Option<&'a str>,
+    scene: Option<String>,
     rays: Vec<Rays>,
 }
 
@@ -130,21 +145,16 @@ impl<'a> Gathered<'a> {
     /// The sets of a scene, own rays first.
     pub(super) fn of(
         &mut self,
-        scene: &'a Scene,
+        scene: &Scene,
         rules: &[Rules],
         seed: u64,
     ) -> Result<Vec<&Rays>, String> {
         let Some(asked) = self.asked else {
             return Ok(Vec::new());
         };
-        if self.scene != Some(&scene.name) {
-            let number = Number {
-                rays: asked.number,
-                pixels: asked.pixels,
-                error: asked.error,
-            };
-            self.rays = gather(scene, &asked.rays, number, rules, seed)?;
-            self.scene = Some(&scene.name);
+        if self.scene.as_ref() != Some(&scene.name) {
+            self.rays = gather(scene, &asked.rays, asked.sizes(), rules, seed)?;
+            self.scene = Some(scene.name.clone());
         }
         let own = asked.own.iter().map(|own| &own.rays);
         Ok(own.chain(&self.rays).collect())

@@ -206,7 +206,7 @@ mod tests {
         let plans = CellPlan::of_scene(&scene, &[rules], 1, rule);
         let cells: Vec<CellRecord> = plans
             .iter()
-            .map(|plan| measure(plan, &()).expect("a sound cell").record)
+            .map(|plan| measure(plan, &()).expect("a sound cell").0.record)
             .collect();
         let r = &cells[0];
         assert_eq!(r.c_se, None);

@@ -63,7 +63,7 @@ pub fn measure(
                 lines,
                 nodes: false,
             };
-            let found = compare(&plan, &tree, &prediction, &())?;
+            let (found, _) = compare(&plan, &tree, &prediction, &())?;
             watcher.done(1);
             Ok(found.record)
         };

@@ -20,13 +20,12 @@ use crate::kd::Rules;
 use crate::scene::Scene;
 
 use super::identity::{digest, whole};
+use super::pieces::{self, Made, piece_by_piece};
 use super::records::{
     CoverageRecord, EnoughRecord, ErrorRecord, ExponentRecord, PassTiming, PlaneRecord,
     PrecisionRecord, Summary, Verdict,
 };
-use super::resume::{Extent, piece_by_piece};
-use super::store::{Store, StoreError, TIMINGS};
-use super::timing::keep_rows;
+use super::store::{Store, StoreError};
 use super::{Plan, RunError, SCHEMA, Watcher};
 
 pub use asked::SpeedVsError;
@@ -47,9 +46,7 @@ pub struct Found {
     pub planes: Vec<PlaneRecord>,
     /// Rows of `coverage.csv`.
     pub coverage: Vec<CoverageRecord>,
-    /// Cells of its rows of `timings.csv`.
-    timed: Vec<String>,
-    /// Rows of `timings.csv`, kept there alone.
+    /// Rows of `timings.csv`, kept apart.
     #[serde(skip)]
     pub timings: Vec<PassTiming>,
 }
@@ -79,12 +76,15 @@ impl Piece<'_> {
     }
 }
 
+/// A piece of the run: the part, and the scene.
+type Whole<'a> = pieces::Piece<(Part<'a>, Piece<'a>)>;
+
 /// The pieces of a plan: part by part, scene by scene.
-fn pieces<'a>(
+pub(super) fn pieces<'a>(
     plan: &Plan,
     asked: &'a SpeedVsError,
     scenes: &'a [Scene],
-) -> Vec<(Part<'a>, Piece<'a>)> {
+) -> Vec<Whole<'a>> {
     let rules = Rules {
         strategy: asked.strategy,
         stop: asked.stop,
@@ -106,7 +106,12 @@ fn pieces<'a>(
             seed: plan.seed,
             id: digest(text.as_bytes()),
         };
-        (part, piece)
+        Whole {
+            id: piece.id.clone(),
+            place: format!("{} of {}", part.name(), scene.name).to_lowercase(),
+            extent: part.extent(scene),
+            of: (part, piece),
+        }
     };
     let of_part = |part: Part<'a>| {
         let own = scenes.iter();
@@ -124,43 +129,31 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let pieces = pieces(plan, asked, scenes);
-    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let found = pieces
-        .iter()
-        .map(|(_, piece)| finished(store, piece, &times))
-        .collect();
-    let announce = |left: &[&(Part<'_>, Piece<'_>)]| {
+    let announce = |left: &[&Whole<'_>]| {
         watcher.announce(&format!("measuring {} parts of scenes", left.len()));
     };
-    let one = |(part, piece): &(Part<'_>, Piece<'_>)| {
-        let place = format!("{} of {}", part.name(), piece.scene.name).to_lowercase();
-        watcher.begin(&place);
+    let measure = |whole: &Whole<'_>| {
+        let (part, piece) = &whole.of;
+        watcher.begin(&whole.place);
         let found = part.measure(piece, watcher);
-        let mut found = found.map_err(|fault| RunError::Bug { place, fault })?;
-        found.timed = found.timings.iter().map(|row| row.cell.clone()).collect();
-        found.timed.dedup();
-        keep_rows(store, std::mem::take(&mut found.timings))?;
-        store.save(&piece.id, &found)?;
-        Ok(found)
+        let mut found = found.map_err(|fault| RunError::Bug {
+            place: whole.place.clone(),
+            fault,
+        })?;
+        store.save(&whole.id, &found)?;
+        let times = std::mem::take(&mut found.timings);
+        Ok(Made {
+            result: found,
+            times,
+        })
     };
-    let extent = |(part, _): &(Part<'_>, Piece<'_>)| Extent {
-        things: 1,
-        units: part.units(),
-    };
-    let results = piece_by_piece(&pieces, found, extent, "parts", watcher, announce, one)?;
-    write(plan, asked, &results, store)?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = |whole: &Whole<'_>| store.finished(&whole.id);
+    let results = piece_by_piece(store, &pieces, "parts", watcher, found, announce, measure)?;
+    if let Some(results) = results {
+        write(plan, asked, &results, store)?;
+    }
     Ok(())
-}
-
-/// A finished piece, if its seconds are there too and by this very program.
-fn finished(store: &Store, piece: &Piece<'_>, times: &[PassTiming]) -> Option<Found> {
-    let found: Found = store.finished(&piece.id)?;
-    let is_there = |cell: &String| {
-        let row = |row: &PassTiming| row.cell == *cell && row.revision == crate::REVISION;
-        times.iter().any(row)
-    };
-    found.timed.iter().all(is_there).then_some(found)
 }
 
 /// Put the run's files together. The seconds are there already.
@@ -199,7 +192,8 @@ pub(super) fn describe(plan: &Plan, asked: &SpeedVsError, scenes: &[Scene]) -> S
         "strategy {}, stop {}, seed {}\n",
         asked.strategy, asked.stop, plan.seed
     );
-    for (part, piece) in pieces(plan, asked, scenes) {
+    for whole in pieces(plan, asked, scenes) {
+        let (part, piece) = whole.of;
         let part = part.name().to_lowercase();
         text += &format!(
             "{}  {part:10} {:24} {:>9} objects\n",

@@ -2,7 +2,9 @@
 
 use std::slice;
 
-use crate::study::Watcher;
+use crate::scene::Scene;
+use crate::study::pieces::Extent;
+use crate::study::{Watcher, guess};
 
 use super::asked::{Coverage, Planes, Precision, Samplers, SpeedVsError};
 use super::{Found, Piece, coverage, planes, precision, samplers};
@@ -58,13 +60,40 @@ impl<'a> Part<'a> {
         }
     }
 
-    /// Units of progress of a scene; [`measure`](Self::measure) tells the watcher as many done.
-    pub fn units(self) -> u64 {
-        match self {
-            Self::Samplers(part) => samplers::units(part),
-            Self::Precision(part) => precision::units(part),
-            Self::Planes(part) => planes::units(part),
-            Self::Coverage(part) => coverage::units(part),
+    /// What a scene amounts to; [`measure`](Self::measure) tells the watcher as many units done.
+    pub fn extent(self, scene: &Scene) -> Extent {
+        let objects = scene.bounds.len();
+        let (units, lines, seconds) = match self {
+            Self::Samplers(part) => {
+                let lines = samplers::units(part);
+                (lines, lines, guess::traced(lines))
+            }
+            Self::Precision(part) => {
+                let units = precision::units(part);
+                let timed = f64::from(part.rounds) * guess::timed(units / 2);
+                (units, units, 5.0 * guess::traced(units) + timed)
+            }
+            Self::Planes(part) => {
+                let trees = planes::units(part) as f64 / 2.0;
+                let builds = 1.0 + f64::from(part.builds);
+                (
+                    planes::units(part),
+                    0,
+                    trees * builds * guess::tree(objects),
+                )
+            }
+            Self::Coverage(part) => {
+                let runs = u64::from(part.seeds) + 2 * u64::from(part.replicates);
+                let lines = runs * part.lines;
+                (coverage::units(part), lines, guess::traced(lines))
+            }
+        };
+        Extent {
+            things: 1,
+            units,
+            lines,
+            seconds: guess::tree(objects) + seconds,
+            bytes: guess::rows(200),
         }
     }
 

@@ -12,10 +12,10 @@ use crate::scene::Scene;
 
 use super::hits::cell::plant;
 use super::identity::{content, digest};
+use super::pieces::{Extent, Made, Piece, piece_by_piece};
 use super::records::{CurveNodeRecord, CurveRecord, MedianRecord, OctreeRecord, Summary, Verdict};
-use super::resume::{Extent, piece_by_piece};
 use super::store::{Store, StoreError};
-use super::{Plan, RunError, SCHEMA, Watcher};
+use super::{Plan, RunError, SCHEMA, Watcher, guess};
 
 pub use asked::SplitCost;
 
@@ -58,31 +58,53 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let size = |scene: &Scene| scene.bounds.len() as u64;
-    let with_id = |scene| (scene, identity(plan, asked, scene));
-    let cells: Vec<(&Scene, String)> = scenes.iter().map(with_id).collect();
-    let found = cells.iter().map(|(_, id)| store.finished(id)).collect();
-    let announce = |left: &[&(&Scene, String)]| {
+    let announce = |left: &[&Piece<&Scene>]| {
         let s = if left.len() == 1 { "" } else { "s" };
         watcher.announce(&format!("looking at the nodes of {} tree{s}", left.len()));
     };
-    let measure = |(scene, id): &(&Scene, String)| {
-        watcher.begin(&scene.name);
-        let found = measure(plan, asked, scene, watcher).map_err(|fault| RunError::Bug {
-            place: scene.name.clone(),
+    let measure = |piece: &Piece<&Scene>| {
+        watcher.begin(&piece.place);
+        let found = measure(plan, asked, piece.of, watcher).map_err(|fault| RunError::Bug {
+            place: piece.place.clone(),
             fault,
         })?;
-        store.save(id, &found)?;
-        watcher.done(size(scene));
-        Ok(found)
+        store.save(&piece.id, &found)?;
+        watcher.done(piece.extent.units);
+        Ok(Made::untimed(found))
     };
-    let extent = |(scene, _): &(&Scene, String)| Extent {
-        things: 1,
-        units: size(scene),
-    };
-    let results = piece_by_piece(&cells, found, extent, "scenes", watcher, announce, measure)?;
-    write(plan, asked, &results, store)?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = |piece: &Piece<&Scene>| store.finished(&piece.id);
+    let results = piece_by_piece(store, &pieces, "scenes", watcher, found, announce, measure)?;
+    if let Some(results) = results {
+        write(plan, asked, &results, store)?;
+    }
     Ok(())
+}
+
+/// The scenes of a plan.
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &SplitCost,
+    scenes: &'a [Scene],
+) -> Vec<Piece<&'a Scene>> {
+    let piece = |scene: &'a Scene| {
+        let objects = scene.bounds.len();
+        let drawn = ranks(asked, scene).len();
+        let lines = asked.octree.map_or(0, |octree| octree.lines);
+        Piece {
+            id: identity(plan, asked, scene),
+            place: scene.name.clone(),
+            extent: Extent {
+                things: 1,
+                units: objects as u64,
+                lines,
+                seconds: 10.0 * guess::tree(objects) + guess::traced(lines),
+                bytes: guess::rows(100 + 500 * drawn),
+            },
+            of: scene,
+        }
+    };
+    scenes.iter().map(piece).collect()
 }
 
 fn measure(

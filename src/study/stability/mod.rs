@@ -25,20 +25,21 @@ mod verdicts;
 
 use serde::{Deserialize, Serialize};
 
+use super::pieces::{Made, piece_by_piece};
 use super::records::{CaseRecord, MetamorphicRecord, RandomRecord, Summary, TieRecord};
-use super::resume::piece_by_piece;
 use super::store::Store;
 use super::{Plan, RunError, Watcher};
 use crate::scene::Scene;
 
 pub use asked::Stability;
 pub use catalogue::catalogue;
-use pieces::{Piece, pieces};
+use pieces::Piece;
+pub(super) use pieces::pieces;
 use verdicts::verdicts;
 
 /// What a piece of the run found.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-struct Found {
+pub(super) struct Found {
     cases: Vec<CaseRecord>,
     random: Vec<RandomRecord>,
     ties: Vec<TieRecord>,
@@ -55,11 +56,6 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let pieces = pieces(plan, asked, scenes);
-    let found = pieces
-        .iter()
-        .map(|piece| store.finished(&piece.id))
-        .collect();
     let announce = |left: &[&Piece<'_>]| {
         watcher.announce(&format!(
             "judging {} groups of hard cases and trees of random lines",
@@ -67,24 +63,22 @@ pub(super) fn run(
         ));
     };
     let measure = |piece: &Piece<'_>| {
-        watcher.begin(&piece.to_string());
-        let found = piece.measure(plan, asked).map_err(|fault| RunError::Bug {
-            place: piece.to_string(),
+        watcher.begin(&piece.place);
+        let found = piece.of.measure(plan, asked);
+        let found: Found = found.map_err(|fault| RunError::Bug {
+            place: piece.place.clone(),
             fault,
         })?;
         store.save(&piece.id, &found)?;
-        watcher.done(piece.extent().units);
-        Ok(found)
+        watcher.done(piece.extent.units);
+        Ok(Made::untimed(found))
     };
-    let found: Vec<Found> = piece_by_piece(
-        &pieces,
-        found,
-        Piece::extent,
-        "parts",
-        watcher,
-        announce,
-        measure,
-    )?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = |piece: &Piece<'_>| store.finished(&piece.id);
+    let found = piece_by_piece(store, &pieces, "parts", watcher, found, announce, measure)?;
+    let Some(found) = found else {
+        return Ok(());
+    };
     for note in found.iter().flat_map(|f| &f.notes) {
         watcher.note(note);
     }
@@ -104,8 +98,8 @@ pub(super) fn run(
 pub(super) fn describe(plan: &Plan, asked: &Stability, scenes: &[Scene]) -> String {
     let mut text = format!("stop {}, seed {}\n", asked.stop, plan.seed);
     for piece in pieces(plan, asked, scenes) {
-        text += &format!("{}  {piece}\n", piece.id);
-        for case in piece.cases() {
+        text += &format!("{}  {}\n", piece.id, piece.place);
+        for case in piece.of.cases() {
             text += &format!("    {:32}  {}\n", case.name, case.stresses);
         }
     }

@@ -8,9 +8,9 @@ use crate::study::hits::cell::plant;
 use crate::study::identity::{content, digest, line_seed, whole};
 use crate::study::incidence::Against;
 use crate::study::kernel::Kernel;
+use crate::study::pieces::{self, Extent};
 use crate::study::records::CaseRecord;
-use crate::study::resume::Extent;
-use crate::study::{Plan, SCHEMA};
+use crate::study::{Plan, SCHEMA, guess};
 
 use super::case::{Case, Check, Finding, Group, Outcome};
 use super::catalogue::select;
@@ -19,22 +19,17 @@ use super::random::Bench;
 use super::{Found, Stability, metamorphic};
 
 /// One piece.
-pub struct Piece<'a> {
-    what: What<'a>,
-    /// Its identity.
-    pub id: String,
-    /// Units of progress: pairs, lines, or what stands for a cell of a hard case.
-    units: u64,
-}
+pub type Piece<'a> = pieces::Piece<What<'a>>;
 
-enum What<'a> {
+/// What is measured. Units of progress: pairs, lines, or what stands for a cell of a hard case.
+pub enum What<'a> {
     Cases(Group, Vec<Case>),
     Tree(&'a Scene, Rules, Shares),
 }
 
 /// Pairs of each family that fall to a tree, against boxes and against triangles: random ones, aimed ones.
 #[derive(Clone, Copy, Debug)]
-struct Shares {
+pub struct Shares {
     boxes: [u64; 2],
     triangles: [u64; 2],
 }
@@ -62,11 +57,18 @@ pub fn pieces<'a>(plan: &Plan, asked: &Stability, scenes: &'a [Scene]) -> Vec<Pi
         let cells = own
             .iter()
             .map(|case| cells(case, &rules, &asked.kernels).len());
-        pieces.push(Piece {
-            id: digest(format!("{common} cases {names:?}").as_bytes()),
-            units: CELL * cells.sum::<usize>() as u64,
-            what: What::Cases(group, own),
-        });
+        let cells = cells.sum::<usize>() as u64;
+        pieces.push(piece(
+            digest(format!("{common} cases {names:?}").as_bytes()),
+            Extent {
+                things: 1,
+                units: CELL * cells,
+                lines: 0,
+                seconds: 0.02 * cells as f64,
+                bytes: guess::rows(cells as usize),
+            },
+            What::Cases(group, own),
+        ));
     }
     let trees = (scenes.len() * rules.len()) as u64;
     let meshes = scenes.iter().filter(|scene| has_triangles(scene)).count();
@@ -89,15 +91,31 @@ pub fn pieces<'a>(plan: &Plan, asked: &Stability, scenes: &'a [Scene]) -> Vec<Pi
                 asked.lines
             );
             let pairs: u64 = shares.boxes.iter().chain(&shares.triangles).sum();
-            pieces.push(Piece {
-                what: What::Tree(scene, *rules, shares),
-                id: digest(text.as_bytes()),
-                units: pairs * asked.kernels.len() as u64
-                    + asked.lines * metamorphic::TRANSFORMS.len() as u64,
-            });
+            let lines = asked.lines * metamorphic::TRANSFORMS.len() as u64;
+            let units = pairs * asked.kernels.len() as u64 + lines;
+            pieces.push(piece(
+                digest(text.as_bytes()),
+                Extent {
+                    things: 1,
+                    units,
+                    lines: units,
+                    seconds: guess::tree(scene.bounds.len()) + guess::traced(units),
+                    bytes: guess::rows(50),
+                },
+                What::Tree(scene, *rules, shares),
+            ));
         }
     }
     pieces
+}
+
+fn piece(id: String, extent: Extent, of: What<'_>) -> Piece<'_> {
+    Piece {
+        id,
+        place: of.to_string(),
+        extent,
+        of,
+    }
 }
 
 fn rules(plan: &Plan, asked: &Stability) -> Vec<Rules> {
@@ -121,42 +139,34 @@ fn cells(case: &Case, rules: &[Rules], kernels: &[Kernel]) -> Vec<(Option<Rules>
     }
 }
 
-impl Piece<'_> {
-    /// How much it is.
-    pub fn extent(&self) -> Extent {
-        Extent {
-            things: 1,
-            units: self.units,
-        }
-    }
-
+impl What<'_> {
     /// The hard cases in it.
     pub fn cases(&self) -> &[Case] {
-        match &self.what {
-            What::Cases(_, cases) => cases,
-            What::Tree(..) => &[],
+        match self {
+            Self::Cases(_, cases) => cases,
+            Self::Tree(..) => &[],
         }
     }
 
     /// Measure it; the error tells a fault of the program that no row can tell.
     pub fn measure(&self, plan: &Plan, asked: &Stability) -> Result<Found, String> {
-        match &self.what {
-            What::Cases(_, cases) => Ok(Found {
+        match self {
+            Self::Cases(_, cases) => Ok(Found {
                 cases: check(cases, &rules(plan, asked), &asked.kernels),
                 ..Found::default()
             }),
-            What::Tree(scene, rules, shares) => tree(plan, asked, scene, rules, shares),
+            Self::Tree(scene, rules, shares) => tree(plan, asked, scene, rules, shares),
         }
     }
 }
 
-impl fmt::Display for Piece<'_> {
+impl fmt::Display for What<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match &self.what {
-            What::Cases(group, cases) => {
+        match self {
+            Self::Cases(group, cases) => {
                 write!(f, "{} hard cases of {}", cases.len(), group.name())
             }
-            What::Tree(scene, rules, _) => write!(f, "{} on {}", rules.strategy.name(), scene.name),
+            Self::Tree(scene, rules, _) => write!(f, "{} on {}", rules.strategy.name(), scene.name),
         }
     }
 }

@@ -8,12 +8,13 @@ use serde::{Deserialize, Serialize};
 use crate::geom::{Ray, Targets};
 use crate::kd::{Hit, Rules, Stack, StopRule, Strategy, Tree, nearest, occluded, predict};
 use crate::scene::{Look, Scene};
-use crate::study::hits::cell::{CellPlan, compare, plant};
+use crate::study::hits::cell::{CellPlan, CellResult, compare, plant};
 use crate::study::identity::{digest, whole};
+use crate::study::pieces::{Extent, Made};
 use crate::study::records::{CellRecord, PassTiming, RayRecord};
 use crate::study::store::Store;
 use crate::study::timing::Timed;
-use crate::study::{Plan, RunError, Watcher, timing};
+use crate::study::{Plan, RunError, Watcher, guess, timing};
 use crate::tracer::{RayCounts, RayKind, RaySet, count, trace};
 
 use super::asked::Strategies;
@@ -53,49 +54,46 @@ pub fn of_scene<'a>(plan: &Plan, asked: &Strategies, scene: &'a Scene) -> Vec<Tr
     plans.into_iter().map(cell).collect()
 }
 
-/// The finished trees of a scene, if all of them, their pictures and their seconds are there: trees are timed together or
-/// not at all, and seconds count if they were measured as asked, by this very program.
-pub fn finished(
-    asked: &Strategies,
-    store: &Store,
-    cells: &[TreeCell],
-    times: &[PassTiming],
-) -> Option<Vec<Studied>> {
-    let as_asked = |row: &PassTiming| {
-        let same = timing::blank(asked.timing, row.what == timing::BUILD);
-        (row.rounds, row.pass_s, &row.revision) == (same.rounds, same.pass_s, &same.revision)
-    };
-    let timed = |id: &str| {
-        let own = times.iter().filter(|row| row.cell == id && as_asked(row));
-        own.count() == PASSES
-    };
+/// Identity of the trees of a scene together: trees are timed together or not at all, and in the same way.
+pub fn identity(asked: &Strategies, cells: &[TreeCell]) -> String {
+    let ids: Vec<&str> = cells.iter().map(|cell| &*cell.plan.id).collect();
+    digest(format!("{ids:?} {:?}", asked.timing).as_bytes())
+}
+
+/// The finished trees of a scene, if all of them and their pictures are there.
+pub fn finished(asked: &Strategies, store: &Store, cells: &[TreeCell]) -> Option<Vec<Studied>> {
     let scene = cells.first()?.plan.scene;
     let one = |cell: &TreeCell| {
         let CellPlan { id, rules, .. } = &cell.plan;
         let drawn = pictures::are_there(store, asked, scene, rules);
-        store.finished(id).filter(|_| timed(id) && drawn)
+        store.finished(id).filter(|_| drawn)
     };
     cells.iter().map(one).collect()
 }
 
-/// Rows of seconds of a tree: its building and each kind of ray.
-const PASSES: usize = 1 + RayKind::ALL.len();
-
-/// Seconds the trees of a scene take, roughly, on two cores of 2024: for the note before a long run.
-pub fn guess(asked: &Strategies, cells: &[TreeCell]) -> f64 {
+/// What the trees of a scene amount to.
+pub fn extent(asked: &Strategies, cells: &[TreeCell]) -> Extent {
     let Some(first) = cells.first() else {
-        return 0.0;
+        return Extent::default();
     };
-    let trees = cells.len() as f64;
-    let objects = first.plan.scene.bounds.len() as f64;
-    let eye_rays = f64::from(asked.pixels + 1).powi(2);
-    let lights = first.look.stage.lights.len() as f64;
-    // An eye ray has about one shadow ray for each second light, and half a secondary ray.
-    let rays = eye_rays * (1.5 + 0.5 * lights);
-    let counting = 5e-7 * rays + 2e-6 * asked.lines.at_least() as f64;
-    let passes = RayKind::ALL.len() as f64 * asked.timing.pass_s.min(1e-7 * rays);
-    let building = 2.5e-6 * objects * f64::from(asked.timing.builds);
-    trees * (counting + passes * (1.0 + f64::from(asked.timing.rounds)) + building)
+    let scene = first.plan.scene;
+    let objects = scene.bounds.len();
+    let lines = asked.lines.at_least();
+    let rays = guess::pictured(scene, asked.pixels);
+    let rounds = 1.0 + f64::from(asked.timing.rounds);
+    let passes = RayKind::ALL.len() as f64 * asked.timing.pass_s;
+    let seconds = guess::streamed(lines)
+        + guess::traced(rays)
+        + rounds * passes.min(guess::timed(rays))
+        + guess::tree(objects) * f64::from(asked.timing.builds);
+    let trees = cells.len();
+    Extent {
+        things: trees,
+        units: trees as u64 * u64::from(1 + asked.timing.rounds),
+        lines: trees as u64 * (lines + rays),
+        seconds: trees as f64 * seconds,
+        bytes: guess::rows(8 * trees) + 7 * u64::from(asked.pixels + 1).pow(2),
+    }
 }
 
 /// Count, check and time the trees of a scene.
@@ -105,13 +103,13 @@ pub fn measure(
     cells: &[TreeCell],
     store: &Store,
     watcher: &impl Watcher,
-) -> Result<Vec<Studied>, RunError> {
+) -> Result<Made<Vec<Studied>, PassTiming>, RunError> {
     let Some(TreeCell {
         plan: CellPlan { scene, .. },
         look,
     }) = cells.first()
     else {
-        return Ok(Vec::new());
+        return Ok(Made::nothing());
     };
     // The rays are the same whatever tree they are made with.
     let reference = Rules {
@@ -172,8 +170,10 @@ pub fn measure(
         passes.insert(0, build);
         passes
     });
-    timing::keep(store, cells.iter().map(|cell| &cell.plan), rows.collect())?;
-    Ok(studied)
+    Ok(Made {
+        result: studied,
+        times: timing::named(cells.iter().map(|cell| &cell.plan), rows),
+    })
 }
 
 /// Count lines and rays through a tree and hold its hits against brute force.
@@ -187,7 +187,7 @@ fn count_tree(
         id, scene, rules, ..
     } = &cell.plan;
     probes.check(tree)?;
-    let record = compare(&cell.plan, tree, &predict(tree), &())?.record;
+    let (CellResult { record, .. }, _) = compare(&cell.plan, tree, &predict(tree), &())?;
     let counts = count(rays, tree, &scene.objects);
     let row = |kind: RayKind| {
         let tally = counts.of(kind);

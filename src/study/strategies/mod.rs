@@ -11,9 +11,9 @@ use crate::scene::Scene;
 use crate::tracer::RayKind;
 
 use super::hits;
-use super::records::{CellRecord, PassTiming, RayRecord, Summary};
-use super::resume::piece_by_piece;
-use super::store::{Store, StoreError, TIMINGS};
+use super::pieces::{Piece, piece_by_piece};
+use super::records::{CellRecord, RayRecord, Summary};
+use super::store::{Store, StoreError};
 use super::{Plan, RunError, Watcher, needed};
 
 pub use asked::Strategies;
@@ -27,18 +27,10 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let work: Vec<Vec<TreeCell>> = scenes
-        .iter()
-        .map(|scene| cells::of_scene(plan, asked, scene))
-        .collect();
-    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    let found = work
-        .iter()
-        .map(|cells| cells::finished(asked, store, cells, &times));
-    let announce = |left: &[&Vec<TreeCell>]| {
-        let trees: usize = left.iter().map(|cells| cells.len()).sum();
+    let announce = |left: &[&Piece<Vec<TreeCell>>]| {
+        let trees: usize = left.iter().map(|piece| piece.extent.things).sum();
         watcher.announce(&format!("tracing rays through {trees} trees"));
-        let seconds: f64 = left.iter().map(|cells| cells::guess(asked, cells)).sum();
+        let seconds: f64 = left.iter().map(|piece| piece.extent.seconds).sum();
         if seconds > 60.0 {
             let minutes = (seconds / 60.0).ceil();
             watcher.note(&format!(
@@ -47,18 +39,39 @@ pub(super) fn run(
         }
     };
     let results = piece_by_piece(
-        &work,
-        found.collect(),
-        |cells| asked.timing.extent(cells.len()),
+        store,
+        &pieces(plan, asked, scenes),
         "trees",
         watcher,
+        |piece| cells::finished(asked, store, &piece.of),
         announce,
-        |cells| cells::measure(plan, asked, cells, store, watcher),
+        |piece| cells::measure(plan, asked, &piece.of, store, watcher),
     )?;
+    let Some(results) = results else {
+        return Ok(());
+    };
     let results: Vec<Studied> = results.into_iter().flatten().collect();
     slices::write(plan, asked, scenes, store, watcher)?;
     write(plan, asked, &results, store)?;
     Ok(())
+}
+
+/// The trees of each scene, which are measured together.
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &Strategies,
+    scenes: &'a [Scene],
+) -> Vec<Piece<Vec<TreeCell<'a>>>> {
+    let piece = |scene: &'a Scene| {
+        let cells = cells::of_scene(plan, asked, scene);
+        Piece {
+            id: cells::identity(asked, &cells),
+            place: scene.name.clone(),
+            extent: cells::extent(asked, &cells),
+            of: cells,
+        }
+    };
+    scenes.iter().map(piece).collect()
 }
 
 /// Put the run's files together. Seconds and pictures are there already.

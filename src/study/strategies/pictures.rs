@@ -3,7 +3,7 @@
 use crate::kd::{Rules, Strategy, Work};
 use crate::scene::Scene;
 use crate::study::records::file_stem;
-use crate::study::store::{Store, StoreError};
+use crate::study::store::{PICTURES, Store, StoreError};
 use crate::tracer::Picture;
 
 use super::asked::Strategies;
@@ -46,10 +46,10 @@ pub fn write_cost(
 }
 
 fn render(scene: &Scene) -> String {
-    format!("pictures/{}.ppm", file_stem(&scene.name))
+    format!("{PICTURES}/{}.ppm", file_stem(&scene.name))
 }
 
 fn costs(scene: &Scene, rules: &Rules) -> String {
     let [scene, stop] = [&scene.name, &rules.stop.to_string()].map(|name| file_stem(name));
-    format!("pictures/{scene}-{stop}.pfm")
+    format!("{PICTURES}/{scene}-{stop}.pfm")
 }

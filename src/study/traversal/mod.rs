@@ -15,11 +15,11 @@ use crate::kd::Rules;
 use crate::scene::Scene;
 
 use super::identity::{digest, whole};
+use super::pieces::{Extent, Made, Piece, piece_by_piece};
+use super::ray_sets::Number;
 use super::records::{LinkRecord, PassTiming, Summary, TraversalRecord};
-use super::resume::{Extent, piece_by_piece};
-use super::store::{Store, StoreError, TIMINGS};
-use super::timing::keep_rows;
-use super::{Plan, RunError, SCHEMA, Watcher};
+use super::store::{Store, StoreError};
+use super::{Plan, RunError, SCHEMA, Watcher, guess};
 
 pub use asked::Traversal;
 use way::Way;
@@ -31,20 +31,24 @@ struct Found {
     walks: Vec<TraversalRecord>,
     /// Rows of `link-memory.csv`.
     links: Vec<LinkRecord>,
-    /// Rows of `timings.csv`, kept there alone.
+    /// Rows of `timings.csv`, kept apart.
     #[serde(skip)]
     timings: Vec<PassTiming>,
 }
 
 /// The tree of one scene.
-struct Cell<'a> {
+pub(super) struct Cell<'a> {
     id: String,
     scene: &'a Scene,
     rules: Rules,
 }
 
 /// The trees of a plan.
-fn cells<'a>(plan: &Plan, asked: &Traversal, scenes: &'a [Scene]) -> Vec<Cell<'a>> {
+pub(super) fn pieces<'a>(
+    plan: &Plan,
+    asked: &Traversal,
+    scenes: &'a [Scene],
+) -> Vec<Piece<Cell<'a>>> {
     let rules = Rules {
         strategy: asked.strategy,
         stop: asked.stop,
@@ -63,9 +67,41 @@ fn cells<'a>(plan: &Plan, asked: &Traversal, scenes: &'a [Scene]) -> Vec<Cell<'a
             asked.timing
         );
         let id = digest(text.as_bytes());
-        Cell { id, scene, rules }
+        Piece {
+            id: id.clone(),
+            place: scene.name.clone(),
+            extent: extent(asked, scene),
+            of: Cell { id, scene, rules },
+        }
     };
     scenes.iter().map(cell).collect()
+}
+
+/// How many rays of each set.
+fn number(asked: &Traversal) -> Number {
+    Number {
+        rays: asked.number,
+        pixels: asked.pixels,
+        error: None,
+    }
+}
+
+/// What a scene amounts to: every way, in both precisions.
+fn extent(asked: &Traversal, scene: &Scene) -> Extent {
+    let ways = 2 * Way::ALL.len();
+    let sets = asked.rays.len();
+    let rays = guess::rays_of(scene, &asked.rays, number(asked));
+    let timed = rays.min(sets as u64 * asked.timing.rays);
+    let rounds = f64::from(asked.timing.rounds);
+    let one = 2.0 * guess::traced(rays) + rounds * guess::timed(timed);
+    let builds = f64::from(asked.timing.builds) * guess::tree(scene.bounds.len());
+    Extent {
+        things: 1,
+        units: (sets * ways) as u64 + u64::from(asked.timing.rounds),
+        lines: ways as u64 * rays,
+        seconds: ways as f64 * (one + builds),
+        bytes: guess::rows(2 * sets * ways),
+    }
 }
 
 /// Measure what is not finished and write the files of the run.
@@ -76,37 +112,33 @@ pub(super) fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    let cells = cells(plan, asked, scenes);
-    let times: Vec<PassTiming> = store.read_rows(TIMINGS, None).unwrap_or_default();
-    // A scene is finished if its seconds are there too, by this very program.
-    let timed = |id: &str| {
-        let mut rows = times.iter();
-        rows.any(|row| row.cell == id && row.revision == crate::REVISION)
-    };
-    let finished = |cell: &Cell| store.finished(&cell.id).filter(|_| timed(&cell.id));
-    let found = cells.iter().map(finished).collect();
-    let announce = |left: &[&Cell<'_>]| {
+    let announce = |left: &[&Piece<Cell<'_>>]| {
         let s = if left.len() == 1 { "" } else { "s" };
         watcher.announce(&format!("walking through {} tree{s}", left.len()));
     };
-    let units = (2 * asked.rays.len() * Way::ALL.len()) as u64 + u64::from(asked.timing.rounds);
-    let extent = |_: &Cell<'_>| Extent { things: 1, units };
-    let one = |cell: &Cell<'_>| {
-        watcher.begin(&cell.scene.name);
-        let found = scene::measure(plan, asked, cell, watcher);
+    let measure = |piece: &Piece<Cell<'_>>| {
+        watcher.begin(&piece.place);
+        let found = scene::measure(plan, asked, &piece.of, watcher);
         let mut found = found.map_err(|fault| RunError::Bug {
-            place: cell.scene.name.clone(),
+            place: piece.place.clone(),
             fault,
         })?;
         // Sets of rays that the scene has not, and tests that it has not in f32, are not done.
         let done = found.walks.len() as u64 + u64::from(asked.timing.rounds);
-        watcher.revise(units, done);
-        keep_rows(store, std::mem::take(&mut found.timings))?;
-        store.save(&cell.id, &found)?;
-        Ok(found)
+        watcher.revise(piece.extent.units, done);
+        store.save(&piece.id, &found)?;
+        let times = std::mem::take(&mut found.timings);
+        Ok(Made {
+            result: found,
+            times,
+        })
     };
-    let results = piece_by_piece(&cells, found, extent, "scenes", watcher, announce, one)?;
-    write(plan, asked, &results, store)?;
+    let pieces = pieces(plan, asked, scenes);
+    let found = |piece: &Piece<Cell<'_>>| store.finished(&piece.id);
+    let results = piece_by_piece(store, &pieces, "scenes", watcher, found, announce, measure)?;
+    if let Some(results) = results {
+        write(plan, asked, &results, store)?;
+    }
     Ok(())
 }
 
@@ -125,12 +157,12 @@ fn write(plan: &Plan, asked: &Traversal, found: &[Found], store: &Store) -> Resu
 
 /// The trees of a dry run, a line each.
 pub(super) fn describe(plan: &Plan, asked: &Traversal, scenes: &[Scene]) -> String {
-    let line = |cell: Cell<'_>| {
-        let scene = cell.scene;
+    let line = |piece: Piece<Cell<'_>>| {
+        let scene = piece.of.scene;
         let objects = scene.bounds.len();
-        format!("{}  {:24} {objects:>9} objects\n", cell.id, scene.name)
+        format!("{}  {:24} {objects:>9} objects\n", piece.id, scene.name)
     };
-    let cells = cells(plan, asked, scenes).into_iter();
+    let pieces = pieces(plan, asked, scenes).into_iter();
     let sets: Vec<String> = asked.rays.iter().map(ToString::to_string).collect();
     let asked::Timing {
         rays,
@@ -145,7 +177,7 @@ pub(super) fn describe(plan: &Plan, asked: &Traversal, scenes: &[Scene]) -> Stri
         asked.strategy,
         asked.stop,
         plan.seed,
-        cells.map(line).collect::<String>(),
+        pieces.map(line).collect::<String>(),
         sets.join(", "),
         asked.number,
         Way::ALL.map(Way::name).join(", ")

@@ -8,7 +8,7 @@ use crate::kd::{Ask, NodeKind, Planes, Stack, Tree};
 use crate::scene::Scene;
 use crate::study::chunks::spread;
 use crate::study::hits::cell::{build_tree, on_one_thread, plant};
-use crate::study::ray_sets::{Number, Rays, RaysOf, gather};
+use crate::study::ray_sets::{Rays, RaysOf, gather};
 use crate::study::records::{LinkRecord, PassTiming, TraversalRecord};
 use crate::study::timing::BUILD;
 use crate::study::{Plan, Watcher};
@@ -17,7 +17,7 @@ use super::seconds::{Error, Pass, Trace, seconds};
 use super::side::{Memory, Side};
 use super::trail::{Follow, Nodes, Set, Tally, Trail};
 use super::way::{Point, Way};
-use super::{Cell, Found, Traversal};
+use super::{Cell, Found, Traversal, number};
 
 /// Measure a scene; the error tells a fault of the program.
 pub fn measure(
@@ -28,12 +28,7 @@ pub fn measure(
 ) -> Result<Found, String> {
     let Cell { scene, rules, .. } = cell;
     let (tree, _) = plant(scene, rules)?;
-    let number = Number {
-        rays: asked.number,
-        pixels: asked.pixels,
-        error: None,
-    };
-    let sets = gather(scene, &asked.rays, number, &[], plan.seed)?;
+    let sets = gather(scene, &asked.rays, number(asked), &[], plan.seed)?;
     let depths = depths(&tree);
     let job = Job {
         asked,

@@ -133,7 +133,7 @@ fn told(scene: &Scene, stop: StopRule, expected: &str) -> Finding {
     let plans = CellPlan::of_scene(scene, &[rules], 1, lines).into_iter();
     let measured = plans.map(|mut plan| {
         plan.nodes = true;
-        measure(&plan, &()).map_or_else(|bug| bug, |cell| summed_up(&cell))
+        measure(&plan, &()).map_or_else(|bug| bug, |(cell, _)| summed_up(&cell))
     });
     Finding::of(expected, measured.collect::<String>())
 }
