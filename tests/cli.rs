@@ -370,7 +370,14 @@ fn a_dry_run_writes_nothing() {
         .args(["run", "e.toml", "--dry-run"])
         .assert()
         .code(0)
-        .stdout(contains("simple:uniform:200").and(contains("spatial-median")));
+        .stdout(
+            contains("simple:uniform:200")
+                .and(contains("spatial-median"))
+                .and(contains(
+                    "in all: 2 pieces, at least 0.13 million lines and rays, about ",
+                ))
+                .and(contains(" MB on disk\n")),
+        );
     validate(folder.path())
         .args([
             "run",

@@ -11,17 +11,17 @@ pub fn tree(objects: usize) -> f64 {
 
 /// Seconds that so many lines take, made and counted as a stream on all cores, with a pilot.
 pub fn streamed(lines: u64) -> f64 {
-    0.05 + 1.5e-7 * lines as f64
+    0.1 + 4e-7 * lines as f64
 }
 
 /// Seconds that so many rays take, traced and counted one by one on all cores.
 pub fn traced(rays: u64) -> f64 {
-    6e-7 * rays as f64
+    4e-7 * rays as f64
 }
 
 /// Seconds that so many rays take, timed on one core.
 pub fn timed(rays: u64) -> f64 {
-    1e-6 * rays as f64
+    4e-7 * rays as f64
 }
 
 /// Bytes of so many rows of results.

@@ -68,7 +68,7 @@ pub(super) fn pieces<'a>(
         let trees = cell.trees.len();
         let rays = guess::rays_of(scene, &asked.rays, asked.sizes());
         // Every tree is measured under each metric besides.
-        let one = 10.0 * guess::tree(scene.bounds.len()) + 2.0 * guess::traced(rays);
+        let one = 10.0 * guess::tree(scene.bounds.len()) + 5.0 * guess::traced(rays);
         Piece {
             id: cell.id.clone(),
             place: scene.name.clone(),
@@ -77,7 +77,7 @@ pub(super) fn pieces<'a>(
                 units: trees as u64,
                 lines: trees as u64 * rays,
                 seconds: trees as f64 * one,
-                bytes: guess::rows(200 * trees * asked.rays.len()),
+                bytes: guess::rows(100 * trees * asked.rays.len()),
             },
             of: cell,
         }

@@ -64,7 +64,7 @@ pub fn pieces<'a>(plan: &Plan, asked: &Stability, scenes: &'a [Scene]) -> Vec<Pi
                 things: 1,
                 units: CELL * cells,
                 lines: 0,
-                seconds: 0.02 * cells as f64,
+                seconds: 0.002 * cells as f64,
                 bytes: guess::rows(cells as usize),
             },
             What::Cases(group, own),

@@ -93,13 +93,14 @@ fn extent(asked: &Traversal, scene: &Scene) -> Extent {
     let rays = guess::rays_of(scene, &asked.rays, number(asked));
     let timed = rays.min(sets as u64 * asked.timing.rays);
     let rounds = f64::from(asked.timing.rounds);
-    let one = 2.0 * guess::traced(rays) + rounds * guess::timed(timed);
-    let builds = f64::from(asked.timing.builds) * guess::tree(scene.bounds.len());
+    let one = guess::traced(rays) + rounds * guess::timed(timed);
+    // The tree, its links and its face trees, in both precisions.
+    let builds = 6.0 * f64::from(asked.timing.builds) * guess::tree(scene.bounds.len());
     Extent {
         things: 1,
         units: (sets * ways) as u64 + u64::from(asked.timing.rounds),
         lines: ways as u64 * rays,
-        seconds: ways as f64 * (one + builds),
+        seconds: ways as f64 * one + builds,
         bytes: guess::rows(2 * sets * ways),
     }
 }
