@@ -109,7 +109,9 @@ pub fn run(
     if let Some(record) = &plan.record {
         store.write(EXPERIMENT, record.recorded(scenes).as_bytes())?;
     }
-    shards::finish(store, &pieces(plan, scenes))?;
+    if let Some(share) = store.share() {
+        shards::finish(store, share, &pieces(plan, scenes))?;
+    }
     Ok(())
 }
 

@@ -12,6 +12,7 @@ use thiserror::Error;
 use crate::scene::Scene;
 
 use super::pieces::{Piece, own_share};
+use super::share::Share;
 use super::store::{CELLS, EXPERIMENT, PICTURES, Store, StoreError};
 use super::{Plan, REVISION, SCHEMA};
 
@@ -58,10 +59,11 @@ pub enum MergeError {
 }
 
 /// Say that a share of a run is finished.
-pub(super) fn finish<P>(store: &Store, pieces: &[Piece<P>]) -> Result<(), StoreError> {
-    let Some(share) = store.share() else {
-        return Ok(());
-    };
+pub(super) fn finish<P>(
+    store: &Store,
+    share: Share,
+    pieces: &[Piece<P>],
+) -> Result<(), StoreError> {
     let (own, _) = own_share(store, pieces);
     let contents = Contents {
         schema: SCHEMA,
