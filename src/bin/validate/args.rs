@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap_complete::Shell;
 use sahlab::study::share::Share;
+
+use crate::examples;
 
 /// How well does the surface area heuristic predict what ray tracing through a kd-tree really costs?
 ///
@@ -14,7 +17,7 @@ use sahlab::study::share::Share;
 /// Exit codes: 0 done and every expectation held; 1 done, but an expectation was missed; 2 could not run; 130 stopped by Ctrl-C or by
 /// a signal, in which case the same command goes on where this one was.
 #[derive(Parser)]
-#[command(version, about, after_help = EXAMPLES)]
+#[command(version, about, after_help = examples::VALIDATE)]
 pub struct Cli {
     /// What to do.
     #[command(subcommand)]
@@ -23,23 +26,6 @@ pub struct Cli {
     #[command(flatten)]
     pub common: Common,
 }
-
-const EXAMPLES: &str = "Examples:
-  validate                                  the default study
-  validate run experiments/figure3.toml     every scene and strategy, real meshes
-  validate scene spd:balls:4                one scene, every strategy, and which to take
-  validate scene model.obj --lines 2^20     your own mesh
-  validate trace model.obj --rays r.csv     your own rays: what they hit and cost
-  validate list strategies                  what can be named where";
-
-const MERGE_EXAMPLES: &str = "Example:
-  validate run experiments/strategies.toml --shard 1/2       on one machine
-  validate run experiments/strategies.toml --shard 2/2       on another
-  validate merge shards/strategies/1-of-2 shards/strategies/2-of-2";
-
-const PLAN_EXAMPLES: &str = "Examples:
-  validate plan experiments/strategies.toml --shards 6 --format slurm        > submit.sh; sh submit.sh
-  validate plan experiments/strategies.toml --shards 6 --format snakemake    > Snakefile; snakemake --cores 2";
 
 /// Flags of every command.
 #[derive(Args, Clone)]
@@ -88,6 +74,7 @@ impl Common {
 #[derive(Subcommand)]
 pub enum Command {
     /// Run experiment files; what a stopped run had finished is kept.
+    #[command(after_help = examples::RUN)]
     Run {
         /// Experiment files.
         #[arg(required = true, value_name = "EXPERIMENT.toml")]
@@ -97,7 +84,7 @@ pub enum Command {
         shard: Option<Share>,
     },
     /// Put the shards of a run together: the same files, to the byte, as if one machine had measured all of it; but for times.
-    #[command(after_help = MERGE_EXAMPLES)]
+    #[command(after_help = examples::MERGE)]
     Merge {
         /// Folders of all shards of one run, e.g. shards/strategies/*.
         #[arg(required = true, value_name = "DIR")]
@@ -107,7 +94,7 @@ pub enum Command {
     ///
     /// It calls `validate` from the PATH, or what the variable VALIDATE names, in the folder where it is submitted, with the
     /// options --quick, --seed, --lines, --error and --out that are given here.
-    #[command(after_help = PLAN_EXAMPLES)]
+    #[command(after_help = examples::PLAN)]
     Plan {
         /// The experiment file.
         #[arg(value_name = "EXPERIMENT.toml")]
@@ -121,6 +108,7 @@ pub enum Command {
     },
     /// One scene: its objects, a tree per strategy, predicted and counted work (of lines, of rays that stop, of your own), which
     /// strategy to take, and for which rays the prediction can be trusted.
+    #[command(after_help = examples::SCENE)]
     Scene {
         /// simple:NAME, spd:NAME:SIZE, hard:NAME, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
@@ -150,6 +138,7 @@ pub enum Command {
     /// Writes data/trace/hits.csv (ray, object, t, n_K, n_B, n_t; a miss has no object and no t) and data/trace/trace.json.
     /// Rays begin at t = 0; t, in the file and in what is written, counts in units of the direction, which need not have
     /// length 1.
+    #[command(after_help = examples::TRACE)]
     Trace {
         /// simple:NAME, spd:NAME:SIZE, hard:NAME, or a .obj, .ply, .stl, .off or .nff file.
         #[arg(value_name = "SCENE")]
@@ -173,17 +162,20 @@ pub enum Command {
         clipped: bool,
     },
     /// What can be named: scenes, strategies, samplers, rays, hard cases, experiments.
+    #[command(after_help = examples::LIST)]
     List {
         /// Only this list.
         what: Option<Listed>,
     },
     /// Draw the pictures of a finished run again, from its data alone.
+    #[command(after_help = examples::PLOTS)]
     Plots {
         /// Data folder of the run, e.g. data/validate.
         #[arg(value_name = "DIR")]
         folder: PathBuf,
     },
     /// Write the tables of a finished run again, from its data alone.
+    #[command(after_help = examples::TABLES)]
     Tables {
         /// Data folder of the run, e.g. data/validate.
         #[arg(value_name = "DIR")]
@@ -193,6 +185,7 @@ pub enum Command {
     ///
     /// Writes archives/NAME.tar.gz, the same bytes for the same runs; --out FILE.tar.gz names another file, --out DIR the
     /// folder that gets archives/. With SOURCE_DATE_EPOCH set, its files have that time, else none.
+    #[command(after_help = examples::ARCHIVE)]
     Archive {
         /// Data folders of the runs, e.g. data/validate.
         #[arg(required = true, value_name = "DIR")]
@@ -202,6 +195,7 @@ pub enum Command {
     ///
     /// Exit codes: 0 all as it should be; 1 something differs, and every difference is told; 2 no archive of runs, or one
     /// that could do harm; nothing of it is unpacked.
+    #[command(after_help = examples::VERIFY)]
     Verify {
         /// The archive.
         #[arg(value_name = "FILE.tar.gz")]
@@ -211,11 +205,21 @@ pub enum Command {
         #[arg(long)]
         replay: bool,
     },
-    /// Copy finished runs to data/published and plots/published and put their figures into README.md.
+    /// Copy finished runs to data/published and plots/published, and put their figures into README.md and the pages of docs/.
+    #[command(after_help = examples::PUBLISH)]
     Publish {
-        /// Names of runs under data/; all runs already published if none is given (README.md only).
+        /// Names of runs under data/; the pages alone if none is given.
         #[arg(value_name = "NAME")]
         names: Vec<String>,
+        /// Change nothing; name every page and the quotation in it that is not what is published (exit code 1).
+        #[arg(long, conflicts_with = "names")]
+        check: bool,
+    },
+    /// Print a script with which a shell completes the commands and flags of `validate`.
+    #[command(after_help = examples::COMPLETIONS)]
+    Completions {
+        /// The shell.
+        shell: Shell,
     },
 }
 

@@ -2,6 +2,7 @@
 
 mod archive;
 mod args;
+mod examples;
 mod output;
 mod progress;
 mod publish;
@@ -9,13 +10,14 @@ mod render;
 mod run;
 mod scene;
 mod shards;
+mod splice;
 mod trace;
 
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::{Context, Result, bail};
-use clap::Parser;
+use clap::{CommandFactory, Parser};
 use sahlab::cost::CostModel;
 use sahlab::files::{self, write_atomic};
 use sahlab::kd::{Rules, Strategy};
@@ -138,7 +140,9 @@ fn execute(cli: &Cli) -> Result<bool> {
     };
     let writes = matches!(
         cli.command,
-        Some(Command::Plots { .. } | Command::Tables { .. } | Command::Publish { .. })
+        Some(
+            Command::Plots { .. } | Command::Tables { .. } | Command::Publish { check: false, .. }
+        )
     );
     if common.dry_run && writes {
         bail!("--dry-run says what would be measured; this command measures nothing");
@@ -255,7 +259,16 @@ fn execute(cli: &Cli) -> Result<bool> {
         }
         Some(Command::Archive { folders }) => archive::pack(folders, common),
         Some(Command::Verify { file, replay }) => archive::verify(file, *replay, common),
-        Some(Command::Publish { names }) => publish::publish(common.root(), names, !common.quiet),
+        Some(Command::Publish { check: true, .. }) => publish::check_pages(common.root()),
+        Some(Command::Publish { names, .. }) => {
+            publish::publish(common.root(), names, !common.quiet)
+        }
+        Some(Command::Completions { shell }) => {
+            let mut script = Vec::new();
+            clap_complete::generate(*shell, &mut Cli::command(), "validate", &mut script);
+            print(&String::from_utf8(script)?)?;
+            Ok(true)
+        }
     }
 }
 

@@ -1,22 +1,18 @@
-//! Publishing: finished runs go to `data/published` and `plots/published`, and README.md quotes the files there.
-//!
-//! README holds blocks `<!-- BEGIN data/published/NAME/FILE.md -->` ... `<!-- END -->`; each is replaced by the file it
-//! names. No number in README is typed by hand.
+//! Publishing: finished runs go to `data/published` and `plots/published`, and README.md and the pages below docs/ quote the
+//! files there, where their marks say so (see [`splice`]).
 
 use std::fs;
 use std::io::ErrorKind;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use sahlab::files::write_atomic;
 use sahlab::study::plan::is_folder_name;
 
 use crate::output::{note, print};
+use crate::splice::{Spliced, splice};
 
-const BEGIN: &str = "<!-- BEGIN ";
-const END: &str = "<!-- END -->";
-
-/// Publish the named runs under `root` and splice README.md.
+/// Publish the named runs under `root` and splice the pages.
 pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
     for name in names {
         let data = root.join("data").join(name);
@@ -38,24 +34,91 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
             }
         }
     }
-    let readme = root.join("README.md");
-    let text = fs::read_to_string(&readme)
-        .with_context(|| format!("{}: cannot read", readme.display()))?;
-    let (spliced, absent) = splice(&text, root).with_context(|| readme.display().to_string())?;
-    write_atomic(&readme, spliced.as_bytes())?;
-    if speak {
-        for file in absent {
+    let pages = spliced(root)?;
+    for (page, now) in &pages {
+        if !now.stale.is_empty() {
+            write_atomic(&root.join(page), now.text.as_bytes())?;
+        }
+        for mark in now.absent.iter().filter(|_| speak) {
             note(&format!(
-                "{file}: not published yet; its block in README.md stays as it was"
+                "{}: {mark}: not published yet; what the page has of it stays as it was",
+                page.display()
             ));
         }
-        print(&format!(
-            "published {}; {} is up to date\n",
-            names.join(", "),
-            readme.display()
-        ))?;
+    }
+    if speak {
+        let what = match names {
+            [] => "published nothing new".into(),
+            _ => format!("published {}", names.join(", ")),
+        };
+        print(&format!("{what}; {} are up to date\n", counted(&pages)))?;
     }
     Ok(true)
+}
+
+/// Name every mark of a page between which something else stands than in the published files, and change nothing. Says
+/// whether there is none.
+pub fn check_pages(root: &Path) -> Result<bool> {
+    let pages = spliced(root)?;
+    let mut wrong = String::new();
+    for (page, now) in &pages {
+        for (marks, what) in [
+            (&now.stale, "out of date; `validate publish` renews it"),
+            (&now.absent, "no such file is published"),
+        ] {
+            for mark in marks {
+                wrong += &format!("{}: {mark}: {what}\n", page.display());
+            }
+        }
+    }
+    if wrong.is_empty() {
+        print(&format!("{} are up to date\n", counted(&pages)))?;
+        return Ok(true);
+    }
+    print(&wrong)?;
+    Ok(false)
+}
+
+fn counted(pages: &[(PathBuf, Spliced)]) -> String {
+    let marks: usize = pages.iter().map(|(_, page)| page.marks).sum();
+    format!("{marks} quotations in {} pages", pages.len())
+}
+
+/// README.md and every page below docs, relative to `root`, with what belongs between their marks.
+fn spliced(root: &Path) -> Result<Vec<(PathBuf, Spliced)>> {
+    let mut pages = vec![PathBuf::from("README.md")];
+    find_pages(root, Path::new("docs"), &mut pages)?;
+    let splice = |page: PathBuf| {
+        let name = page.display().to_string();
+        let text =
+            fs::read_to_string(root.join(&page)).with_context(|| format!("{name}: cannot read"))?;
+        let spliced = splice(&text, root).context(name)?;
+        Ok((page, spliced))
+    };
+    pages.into_iter().map(splice).collect()
+}
+
+/// The Markdown files below a folder, in order; none if there is no such folder.
+fn find_pages(root: &Path, folder: &Path, pages: &mut Vec<PathBuf>) -> Result<()> {
+    let here = root.join(folder);
+    if !here.is_dir() {
+        return Ok(());
+    }
+    let wrong = || format!("{}: cannot read", here.display());
+    let names = fs::read_dir(&here)
+        .with_context(wrong)?
+        .map(|entry| Ok(entry?.file_name()));
+    let mut names: Vec<_> = names.collect::<std::io::Result<_>>().with_context(wrong)?;
+    names.sort();
+    for name in names {
+        let path = folder.join(name);
+        if root.join(&path).is_dir() {
+            find_pages(root, &path, pages)?;
+        } else if path.extension().is_some_and(|ending| ending == "md") {
+            pages.push(path);
+        }
+    }
+    Ok(())
 }
 
 /// Remove a folder, if there is one.
@@ -137,54 +200,4 @@ fn copy(from: &Path, to: &Path) -> Result<()> {
         }
     }
     Ok(())
-}
-
-/// Replace what stands in each block by the file that the block names. Where there is no such file the block stays; gives
-/// these files too.
-fn splice(text: &str, root: &Path) -> Result<(String, Vec<String>)> {
-    let mut out = String::new();
-    let mut absent = Vec::new();
-    let mut rest = text;
-    while let Some(begin) = rest.find(BEGIN) {
-        let after = begin + BEGIN.len();
-        let close = rest[after..]
-            .find(" -->")
-            .context("a BEGIN marker is not closed by -->")?;
-        let file = &rest[after..after + close];
-        let body = after + close + " -->".len();
-        let end = rest[body..]
-            .find(END)
-            .with_context(|| format!("no {END} after BEGIN {file}"))?;
-        out += &rest[..body];
-        match fs::read_to_string(root.join(file)) {
-            Ok(content) => out += &format!("\n{}\n", content.trim_end()),
-            Err(error) if error.kind() == ErrorKind::NotFound => {
-                absent.push(file.into());
-                out += &rest[body..body + end];
-            }
-            Err(error) => return Err(error).with_context(|| format!("{file}: cannot read")),
-        }
-        out += END;
-        rest = &rest[body + end + END.len()..];
-    }
-    Ok((out + rest, absent))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn blocks_are_replaced_and_nothing_else() {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        fs::write(folder.path().join("t.md"), "| a |\n").expect("written");
-        let text = "x\n<!-- BEGIN t.md -->\nold\n<!-- END -->\ny";
-        let wanted = "x\n<!-- BEGIN t.md -->\n| a |\n<!-- END -->\ny";
-        let spliced = |text: &str| splice(text, folder.path()).expect("spliced");
-        assert_eq!(spliced(text), (wanted.into(), vec![]));
-        assert_eq!(spliced(wanted), (wanted.into(), vec![]));
-        let kept = format!("{wanted}<!-- BEGIN none.md -->\nold\n<!-- END -->");
-        assert_eq!(spliced(&kept), (kept.clone(), vec!["none.md".into()]));
-        assert!(splice("<!-- BEGIN t.md -->", folder.path()).is_err());
-    }
 }
