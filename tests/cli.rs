@@ -298,6 +298,86 @@ fn runs_are_published_one_by_one() {
 }
 
 #[test]
+fn pages_are_checked_and_renewed() {
+    let folder = tempdir().unwrap();
+    let root = folder.path();
+    let write = |name: &str, text: &str| {
+        let path = root.join(name);
+        fs::create_dir_all(path.parent().unwrap()).unwrap();
+        fs::write(path, text).unwrap();
+    };
+    let read = |name: &str| fs::read_to_string(root.join(name)).unwrap();
+    write("data/published/e/t.md", "| a | b |\n|:--|--:|\n| x | 7 |\n");
+    let stale = "# d\n\nIt is <!-- = data/published/e/t.md | x | b -->6<!-- / -->.\n";
+    let fresh = stale.replace("6", "7");
+    write("docs/deep/d.md", stale);
+    write("README.md", "# r\n");
+    let check = || validate(root).args(["publish", "--check"]).assert();
+    check()
+        .code(1)
+        .stdout("docs/deep/d.md: data/published/e/t.md | x | b: out of date; `validate publish` renews it\n");
+    assert_eq!(read("docs/deep/d.md"), stale);
+    validate(root).arg("publish").assert().code(0);
+    assert_eq!(
+        (read("docs/deep/d.md"), read("README.md")),
+        (fresh, "# r\n".into())
+    );
+    check()
+        .code(0)
+        .stdout("1 quotations in 2 pages are up to date\n");
+    // What is not there to be quoted is out of date; what cannot be told is an error.
+    write(
+        "docs/e.md",
+        "<!-- BEGIN data/published/e/none.md -->\n<!-- END -->\n",
+    );
+    check().code(1).stdout(contains(
+        "docs/e.md: data/published/e/none.md: no such file is published",
+    ));
+    write(
+        "docs/e.md",
+        "a <!-- = data/published/e/t.md | y | b -->7<!-- / -->\n",
+    );
+    check().code(2).stderr(contains(
+        "docs/e.md: data/published/e/t.md | y | b: 0 such cells, expected one",
+    ));
+}
+
+#[test]
+fn completions_are_scripts_of_each_shell() {
+    let folder = tempdir().unwrap();
+    for (shell, word) in [
+        ("bash", "complete -F"),
+        ("zsh", "#compdef validate"),
+        ("fish", "complete -c validate"),
+        ("powershell", "Register-ArgumentCompleter"),
+        ("elvish", "edit:completion"),
+    ] {
+        let done = validate(folder.path())
+            .args(["completions", shell])
+            .assert()
+            .code(0)
+            .stdout(contains(word).and(contains("dry-run")));
+        let script = folder.path().join(shell);
+        fs::write(&script, &done.get_output().stdout).unwrap();
+        // Where the shell is there, it reads the script.
+        if ["bash", "zsh", "fish"].contains(&shell)
+            && let Ok(read) = Process::new(shell).arg("-n").arg(&script).output()
+        {
+            assert!(
+                read.status.success(),
+                "{}",
+                String::from_utf8_lossy(&read.stderr)
+            );
+        }
+    }
+    validate(folder.path())
+        .args(["completions", "cmd"])
+        .assert()
+        .code(2)
+        .stderr(contains("possible values"));
+}
+
+#[test]
 fn tables_and_plots_are_redone_from_data_alone() {
     let folder = with_experiment(GOOD);
     validate(folder.path())

@@ -112,7 +112,7 @@ mod tests {
             cli.get_subcommands()
                 .map(|command| vec![command.get_name()]),
         );
-        assert!(commands.len() > 10);
+        assert!(commands.len() >= 11);
         for command in commands {
             let help = help(&command);
             let examples = examples(&help);
@@ -135,5 +135,27 @@ mod tests {
                 assert_eq!(gone, None, "{words:?}");
             }
         }
+    }
+
+    /// The commands in README and docs, as far as they are of this program.
+    #[test]
+    fn commands_in_the_pages_can_be_parsed() {
+        let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+        let mut parsed = 0;
+        for page in ["README.md", "docs/your-own-model.md", "docs/archives.md"] {
+            let text = std::fs::read_to_string(root.join(page)).expect(page);
+            for code in text.split("```sh\n").skip(1) {
+                let code = code.split("```").next().unwrap_or_default();
+                for line in code.lines().filter(|line| line.starts_with("validate ")) {
+                    let command = line.split(" #").next().unwrap_or_default();
+                    let words = command.split_whitespace();
+                    if let Err(error) = Cli::try_parse_from(words) {
+                        panic!("{page}: {line}: {error}");
+                    }
+                    parsed += 1;
+                }
+            }
+        }
+        assert!(parsed >= 12, "{parsed}");
     }
 }

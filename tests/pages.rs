@@ -1,0 +1,239 @@
+//! README and the pages of docs/: what they quote, what they link to, what they show.
+#![allow(clippy::unwrap_used, missing_docs)]
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+use predicates::str::contains;
+
+fn root() -> &'static Path {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+fn validate(folder: &Path) -> Command {
+    let mut command = Command::cargo_bin("validate").unwrap();
+    command.current_dir(folder);
+    command
+}
+
+/// README, the change log and every page below docs, relative to the root.
+fn pages() -> Vec<PathBuf> {
+    let mut pages = vec!["README.md".into(), "CHANGELOG.md".into()];
+    let mut open = vec![PathBuf::from("docs")];
+    while let Some(folder) = open.pop() {
+        for entry in fs::read_dir(root().join(&folder)).unwrap() {
+            let path = folder.join(entry.unwrap().file_name());
+            if root().join(&path).is_dir() {
+                open.push(path);
+            } else {
+                assert!(path.extension().unwrap() == "md", "{}", path.display());
+                pages.push(path);
+            }
+        }
+    }
+    assert!(pages.len() > 15);
+    pages
+}
+
+fn read(page: &Path) -> String {
+    fs::read_to_string(root().join(page)).unwrap()
+}
+
+/// A page without its fenced code, and the text of each fence with the word behind it.
+fn prose_and_code(text: &str) -> (String, Vec<(String, String)>) {
+    let (mut prose, mut code) = (String::new(), Vec::new());
+    for (i, part) in text.split("```").enumerate() {
+        if i % 2 == 0 {
+            prose += part;
+        } else {
+            let (kind, body) = part.split_once('\n').unwrap();
+            code.push((kind.to_string(), body.to_string()));
+        }
+    }
+    (prose, code)
+}
+
+/// Where each link and picture of a page leads, and what is written on it.
+fn links(text: &str) -> Vec<(String, String)> {
+    let prose = prose_and_code(text).0;
+    let link = |(at, _): (usize, &str)| {
+        let target = prose[at + 2..].split(')').next().unwrap();
+        let words = prose[..at].rsplit('[').next().unwrap();
+        (target.to_string(), words.to_string())
+    };
+    prose.match_indices("](").map(link).collect()
+}
+
+/// The anchors that GitHub gives the headings of a page.
+fn anchors(text: &str) -> BTreeSet<String> {
+    let prose = prose_and_code(text).0;
+    let titles = prose.lines().filter(|line| line.starts_with('#'));
+    let anchor = |title: &str| {
+        let title = title.trim_start_matches('#').trim().to_lowercase();
+        let kept = title
+            .chars()
+            .filter(|c| c.is_alphanumeric() || " -_".contains(*c));
+        kept.collect::<String>().replace(' ', "-")
+    };
+    titles.map(anchor).collect()
+}
+
+#[test]
+fn every_quotation_is_up_to_date() {
+    validate(root())
+        .args(["publish", "--check"])
+        .assert()
+        .code(0)
+        .stdout(contains("are up to date"));
+}
+
+/// The same without the program: blocks word for word, cells as words of the file they name.
+#[test]
+fn every_quotation_stands_in_the_file_it_names() {
+    let (mut blocks, mut cells) = (0, 0);
+    for page in pages() {
+        let text = read(&page);
+        for block in text.split("<!-- BEGIN ").skip(1) {
+            let (mark, rest) = block.split_once(" -->\n").unwrap();
+            let quoted = rest.split("<!-- END -->").next().unwrap();
+            let file = mark.split(" | ").next().unwrap();
+            let content = read(Path::new(file));
+            if file == mark {
+                assert_eq!(quoted.trim_end(), content.trim_end(), "{mark}");
+            } else {
+                let words = quoted.split('|').map(str::trim);
+                let words = words.filter(|word| !word.starts_with('-'));
+                let gone = words.clone().find(|word| !content.contains(word));
+                assert_eq!(gone, None, "{mark}");
+                assert!(words.count() > 20, "{mark}");
+            }
+            blocks += 1;
+        }
+        for cell in text.split("<!-- = ").skip(1) {
+            let (mark, rest) = cell.split_once(" -->").unwrap();
+            let (quoted, _) = rest.split_once("<!-- / -->").unwrap();
+            let file = mark.split(" | ").next().unwrap();
+            let row = mark.split(" | ").nth(1).unwrap();
+            let content = read(Path::new(file));
+            let stands = |line: &str| line.contains(row) && line.contains(&format!(" {quoted} "));
+            assert!(
+                !quoted.is_empty() && content.lines().any(stands),
+                "{mark}: {quoted}"
+            );
+            cells += 1;
+        }
+    }
+    assert!(
+        blocks >= 35 && cells >= 25,
+        "{blocks} blocks, {cells} cells"
+    );
+}
+
+#[test]
+fn every_link_leads_somewhere_and_every_page_is_linked() {
+    let pages = pages();
+    let mut reached: BTreeSet<PathBuf> = [root().join("README.md")].into();
+    let mut wrong = Vec::new();
+    for page in &pages {
+        let text = read(page);
+        for (target, words) in links(&text) {
+            if target.starts_with("https://") {
+                continue;
+            }
+            let (file, anchor) = target.split_once('#').unwrap_or((&target, ""));
+            let here = root().join(page);
+            let there = match file {
+                "" => here.clone(),
+                _ => here.parent().unwrap().join(file),
+            };
+            let Ok(there) = there.canonicalize() else {
+                wrong.push(format!("{}: {target}", page.display()));
+                continue;
+            };
+            let known = || anchors(&fs::read_to_string(&there).unwrap()).contains(anchor);
+            if !anchor.is_empty() && !known() {
+                wrong.push(format!("{}: {target}: no such heading", page.display()));
+            }
+            if words.is_empty() {
+                wrong.push(format!(
+                    "{}: {target}: nothing is written on it",
+                    page.display()
+                ));
+            }
+            reached.insert(there);
+        }
+    }
+    for page in &pages {
+        if !reached.contains(&root().join(page).canonicalize().unwrap()) {
+            wrong.push(format!("{}: no page links to it", page.display()));
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}");
+}
+
+/// Names of files in code marks: what a page calls `src/kd/strategy.rs` is there.
+#[test]
+fn every_file_that_is_named_is_there() {
+    let mut named = BTreeSet::new();
+    for page in pages() {
+        let prose = prose_and_code(&read(&page)).0;
+        for (i, word) in prose.split('`').enumerate() {
+            let ours = [
+                "src/",
+                "tests/",
+                "experiments/",
+                "benches/",
+                "fuzz/",
+                "peers/",
+                ".ci/",
+            ];
+            if i % 2 == 1
+                && ours.iter().any(|folder| word.starts_with(folder))
+                && !word.contains(' ')
+            {
+                assert!(root().join(word).exists(), "{}: {word}", page.display());
+                named.insert(word.to_string());
+            }
+        }
+    }
+    assert!(named.len() > 15, "{named:?}");
+}
+
+/// The first thing a reader copies must work: the experiment in the page on own models.
+#[test]
+fn the_experiment_that_is_shown_can_be_run() {
+    let page = read(Path::new("docs/your-own-model.md"));
+    let (_, code) = prose_and_code(&page);
+    let (_, text) = code.iter().find(|(kind, _)| kind == "toml").unwrap();
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("mine.toml"), text).unwrap();
+    validate(folder.path())
+        .args(["scene", "spd:teapot:4", "--nff", "model.nff"])
+        .assert()
+        .code(0);
+    validate(folder.path())
+        .args(["run", "mine.toml", "--dry-run"])
+        .assert()
+        .code(0)
+        .stdout(contains("sah-bins:32"));
+}
+
+/// Published results are whole runs, and the expectations they were held to are told with them.
+#[test]
+fn published_runs_are_not_quick_ones() {
+    for (name, cells) in [
+        ("figure3", 132),
+        ("validate", 45),
+        ("strategies", 660),
+        ("termination", 100),
+    ] {
+        let folder = root().join("data/published").join(name);
+        let run = sahlab::report::read_run(&folder).unwrap();
+        assert!(!run.summary.quick);
+        assert!(!run.summary.verdicts.is_empty());
+        let rows = fs::read_to_string(folder.join("cells.csv")).unwrap();
+        assert!(rows.lines().count() > cells, "{name}");
+    }
+}
