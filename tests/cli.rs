@@ -308,14 +308,14 @@ fn pages_are_checked_and_renewed() {
     };
     let read = |name: &str| fs::read_to_string(root.join(name)).unwrap();
     write("data/published/e/t.md", "| a | b |\n|:--|--:|\n| x | 7 |\n");
-    let stale = "# d\n\nIt is <!-- = data/published/e/t.md | x | b -->6<!-- / -->.\n";
+    let stale = "# d\n\nIt is <!-- = data/published/e/t.md :: x :: b -->6<!-- / -->.\n";
     let fresh = stale.replace("6", "7");
     write("docs/deep/d.md", stale);
     write("README.md", "# r\n");
     let check = || validate(root).args(["publish", "--check"]).assert();
     check()
         .code(1)
-        .stdout("docs/deep/d.md: data/published/e/t.md | x | b: out of date; `validate publish` renews it\n");
+        .stdout("docs/deep/d.md: data/published/e/t.md :: x :: b: out of date; `validate publish` renews it\n");
     assert_eq!(read("docs/deep/d.md"), stale);
     validate(root).arg("publish").assert().code(0);
     assert_eq!(
@@ -335,10 +335,10 @@ fn pages_are_checked_and_renewed() {
     ));
     write(
         "docs/e.md",
-        "a <!-- = data/published/e/t.md | y | b -->7<!-- / -->\n",
+        "a <!-- = data/published/e/t.md :: y :: b -->7<!-- / -->\n",
     );
     check().code(2).stderr(contains(
-        "docs/e.md: data/published/e/t.md | y | b: 0 such cells, expected one",
+        "docs/e.md: data/published/e/t.md :: y :: b: 0 such cells, expected one",
     ));
 }
 

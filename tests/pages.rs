@@ -98,7 +98,7 @@ fn every_quotation_stands_in_the_file_it_names() {
         for block in text.split("<!-- BEGIN ").skip(1) {
             let (mark, rest) = block.split_once(" -->\n").unwrap();
             let quoted = rest.split("<!-- END -->").next().unwrap();
-            let file = mark.split(" | ").next().unwrap();
+            let file = mark.split(" :: ").next().unwrap();
             let content = read(Path::new(file));
             if file == mark {
                 assert_eq!(quoted.trim_end(), content.trim_end(), "{mark}");
@@ -114,8 +114,8 @@ fn every_quotation_stands_in_the_file_it_names() {
         for cell in text.split("<!-- = ").skip(1) {
             let (mark, rest) = cell.split_once(" -->").unwrap();
             let (quoted, _) = rest.split_once("<!-- / -->").unwrap();
-            let file = mark.split(" | ").next().unwrap();
-            let row = mark.split(" | ").nth(1).unwrap();
+            let file = mark.split(" :: ").next().unwrap();
+            let row = mark.split(" :: ").nth(1).unwrap();
             let content = read(Path::new(file));
             let stands = |line: &str| line.contains(row) && line.contains(&format!(" {quoted} "));
             assert!(

@@ -1,9 +1,10 @@
 //! Marks in a page of text, and what the published files put between them. No number in a page is typed by hand.
 //!
 //! - `<!-- BEGIN FILE -->` ... `<!-- END -->`: the file as it is.
-//! - `<!-- BEGIN FILE | COLUMN | COLUMN -->` ... `<!-- END -->`: only these columns of its tables.
-//! - `<!-- = FILE | ROW | COLUMN -->` ... `<!-- / -->`, inside a line: one cell of a table of the file. ROW is the first cell of the row, or
-//!   its first cells, divided by `|`; the title of the group of rows it stands in may go before them.
+//! - `<!-- BEGIN FILE :: COLUMN :: COLUMN -->` ... `<!-- END -->`: only these columns of its tables.
+//! - `<!-- = FILE :: ROW :: COLUMN -->` ... `<!-- / -->`, inside a line: one cell of a table of the file. ROW is the first cell of the row, or
+//!   its first cells, divided by `::`; the title of the group of rows it stands in may go before them. (A `|` would end a cell of
+//!   a table in which such a mark stands.)
 
 use std::fs;
 use std::io::ErrorKind;
@@ -50,7 +51,7 @@ pub fn splice(page: &str, root: &Path) -> Result<Spliced> {
         let old = &rest[body..body + length];
         spliced.text += &rest[..body];
         spliced.marks += 1;
-        let mut words = mark.split('|').map(str::trim);
+        let mut words = mark.split(" :: ").map(str::trim);
         let file = words.next().unwrap_or_default();
         let words: Vec<&str> = words.collect();
         let new = match fs::read_to_string(root.join(file)) {
@@ -110,10 +111,7 @@ fn columns(text: &str, names: &[&str]) -> Result<String> {
         };
         let here = match kept.take() {
             Some(here) => here,
-            None => names
-                .iter()
-                .map(|name| position(&row, name))
-                .collect::<Result<_>>()?,
+            None => chosen(&row, names)?,
         };
         let row = here.iter().map(|&column| row.get(column).copied());
         let row = row.collect::<Option<Vec<_>>>();
@@ -124,15 +122,22 @@ fn columns(text: &str, names: &[&str]) -> Result<String> {
     Ok(out)
 }
 
-fn position(head: &[&str], name: &str) -> Result<usize> {
-    let found = head.iter().position(|cell| *cell == name);
-    found.with_context(|| format!("no column '{name}'; there are: {}", head.join(", ")))
+/// Where these columns are in the head of a table. A name that is there twice may be named twice.
+fn chosen(head: &[&str], names: &[&str]) -> Result<Vec<usize>> {
+    let place = |(i, name): (usize, &&str)| {
+        let before = names[..i].iter().filter(|other| *other == name).count();
+        let mut places = (0..head.len()).filter(|&column| head[column] == *name);
+        places
+            .nth(before)
+            .with_context(|| format!("no column '{name}'; there are: {}", head.join(", ")))
+    };
+    names.iter().enumerate().map(place).collect()
 }
 
 /// The one cell that the first cells of its row and the head of its column name.
 fn cell(text: &str, words: &[&str]) -> Result<String> {
     let Some((column, row)) = words.split_last().filter(|(_, row)| !row.is_empty()) else {
-        bail!("expected FILE | ROW | COLUMN");
+        bail!("expected FILE :: ROW :: COLUMN");
     };
     let mut found = Vec::new();
     let mut head: Option<Vec<&str>> = None;
@@ -201,25 +206,32 @@ mod tests {
 
     #[test]
     fn columns_are_chosen_by_name() {
-        let chosen = text("<!-- BEGIN t.md | c | a -->\n<!-- END -->");
+        let chosen = text("<!-- BEGIN t.md :: c :: a -->\n<!-- END -->");
         assert!(chosen.contains("caption.\n\n| c | a |\n| :-- | :-- |\n|  | **g** |\n| u | x |\n"));
-        let error = page("<!-- BEGIN t.md | d -->\n<!-- END -->").expect_err("no such column");
+        let error = page("<!-- BEGIN t.md :: d -->\n<!-- END -->").expect_err("no such column");
         assert!(format!("{error:#}").contains("no column 'd'; there are: a, b, c"));
+    }
+
+    #[test]
+    fn a_name_that_two_columns_have_is_taken_in_turn() {
+        let head = ["a", "b", "b"];
+        assert_eq!(chosen(&head, &["b", "a", "b"]).expect("chosen"), [1, 0, 2]);
+        assert!(chosen(&head, &["a", "a"]).is_err());
     }
 
     #[test]
     fn cells_are_found_by_row_and_column() {
         for (row, cell) in [
             ("y", "3"),
-            ("x | 1", "1"),
-            ("**h** | x", "2"),
-            ("y | 3", "3"),
+            ("x :: 1", "1"),
+            ("**h** :: x", "2"),
+            ("y :: 3", "3"),
         ] {
-            let wanted = format!("It is <!-- = t.md | {row} | b -->{cell}<!-- / -->.");
+            let wanted = format!("It is <!-- = t.md :: {row} :: b -->{cell}<!-- / -->.");
             assert_eq!(text(&wanted.replace(&format!(">{cell}<"), ">9<")), wanted);
         }
-        for wrong in ["x | b", "z | b", "y | d", "b", ""] {
-            let wrong = format!("It is <!-- = t.md | {wrong} -->3<!-- / -->.");
+        for wrong in ["x :: b", "z :: b", "y :: d", "b", ""] {
+            let wrong = format!("It is <!-- = t.md :: {wrong} -->3<!-- / -->.");
             assert!(page(&wrong).is_err(), "{wrong}");
         }
     }
@@ -229,9 +241,9 @@ mod tests {
         for wrong in [
             "<!-- BEGIN t.md",
             "<!-- BEGIN t.md -->",
-            "a <!-- = t.md | y | b -->3",
-            "<!-- = t.md | y | b -->3<!-- / -->",
-            "a\n<!-- = t.md | y | b -->3<!-- / -->",
+            "a <!-- = t.md :: y :: b -->3",
+            "<!-- = t.md :: y :: b -->3<!-- / -->",
+            "a\n<!-- = t.md :: y :: b -->3<!-- / -->",
         ] {
             assert!(page(wrong).is_err(), "{wrong}");
         }
