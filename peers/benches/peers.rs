@@ -6,7 +6,7 @@
 //! ```
 //!
 //! Prints tables and writes `data/published/peers-ratios.csv` and `data/bench/peers.md`; `validate publish bench` puts the latter into
-//! README.
+//! `docs/results/speed.md`.
 //!
 //! Compared: building, nearest hits and any hits against Embree (if it is there, see `peers/src/embree/`), obvhs, parry3d,
 //! bvh and kdtree-ray; counting and making lines, which no library has, against our own slower ways. Left out: what needs

@@ -1,4 +1,4 @@
-//! What the bench writes: rows of ratios, and the tables that README quotes.
+//! What the bench writes: rows of ratios, and the tables that `docs/results/speed.md` quotes.
 
 use std::fmt::Write;
 

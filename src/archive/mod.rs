@@ -11,6 +11,33 @@
 //! experiments/RUN.toml   what to run again
 //! data/RUN/  plots/RUN/  what came out
 //! ```
+//!
+//! A run from its experiment to an archive, and what becomes of an archive that was damaged:
+//!
+//! ```
+//! use sahlab::archive::{RunFolders, pack, verify};
+//! use sahlab::study::{self, Plan, plan::Overrides, store::Store};
+//! use sahlab::{report, scene::Scene};
+//!
+//! let few = Overrides { quick: true, lines: Some(4096), ..Overrides::default() };
+//! let plan = Plan::read("experiments/validate.toml".as_ref(), few)?;
+//! let scenes = plan.scenes.iter().map(|name| Scene::load(name)).collect::<Result<Vec<_>, _>>()?;
+//! let folder = tempfile::tempdir()?;
+//! let [data, plots] = ["data", "plots"].map(|part| folder.path().join(part).join(&plan.name));
+//! study::run(&plan, &scenes, &Store::open(&data), &())?;
+//! report::write_plots(&report::read_run(&data)?, &plots)?;
+//!
+//! let file = folder.path().join("run.tar.gz");
+//! pack(&[RunFolders { name: plan.name, data, plots }], None)?.write(&file)?;
+//! let verified = verify(&file)?;
+//! assert!(verified.faults.is_empty() && verified.experiments.contains_key("validate-quick"));
+//!
+//! // Cut short, it is no archive.
+//! let bytes = std::fs::read(&file)?;
+//! std::fs::write(&file, &bytes[..bytes.len() / 2])?;
+//! assert!(verify(&file).is_err());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
 
 mod environment;
 mod manifest;

@@ -5,6 +5,16 @@ use glam::DVec3;
 use super::{Axis, Line, Real, Span, Vector, slack};
 
 /// A closed axis-aligned box. `lo <= hi` holds on every axis; a box may be flat, a segment or a point.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::geom::Aabb;
+///
+/// let cube = Aabb::new(DVec3::ZERO, DVec3::ONE);
+/// let (left, _) = cube.split(0, 0.5);
+/// // Half of the cube is hit by two thirds of the lines that hit the cube.
+/// assert_eq!(left.surface_area() / cube.surface_area(), 4.0 / 6.0);
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Aabb<V = DVec3> {
     /// Lower corner.

@@ -131,6 +131,17 @@ pub struct Frame<T> {
 }
 
 /// A line with a range of t and the constants of the watertight triangle test: what object tests take.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::geom::{Line, Ray, Span, Triangle};
+///
+/// let triangle = Triangle([DVec3::ZERO, DVec3::X, DVec3::Y]);
+/// let line = Line::new(DVec3::new(0.25, 0.25, 3.0), DVec3::NEG_Z);
+/// assert_eq!(triangle.intersect(&Ray::new(line, Span::from(0.0))), Some(3.0));
+/// // A ray that ends before the triangle misses it.
+/// assert_eq!(triangle.intersect(&Ray::new(line, Span { t0: 0.0, t1: 2.0 })), None);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct Ray<V: Vector = DVec3> {
     /// The line.

@@ -25,6 +25,17 @@ mod choose;
 mod growth;
 
 /// All that decides a tree besides the objects.
+///
+/// ```
+/// use sahlab::cost::CostModel;
+/// use sahlab::kd::{Rules, Strategy};
+///
+/// let stops = ["objects:2:16".parse()?, "automatic".parse()?];
+/// let all = Rules::crossed(&stops, &Strategy::ALL, CostModel::WALD_HAVRAN, false);
+/// assert_eq!(all.len(), 2 * Strategy::ALL.len());
+/// assert_eq!((all[0].stop, all[0].strategy), (stops[0], Strategy::ALL[0]));
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Rules {
@@ -59,6 +70,23 @@ impl Rules {
 }
 
 /// Build a tree over objects given by their boxes, with `world` around them all.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::cost::CostModel;
+/// use sahlab::geom::Aabb;
+/// use sahlab::kd::{NodeKind, Rules, StopRule, Strategy, build};
+///
+/// // Small boxes in two opposite corners of a large one: cuts at both leave empty space between them.
+/// let small = |at: f64| Aabb::new(DVec3::splat(at), DVec3::splat(at + 1.0));
+/// let boxes: Vec<Aabb> = (0..10).map(|i| small(f64::from(i % 2) * 9.0)).collect();
+/// let (strategy, stop) = (Strategy::Sah, StopRule::CostGain { depth: None });
+/// let rules = Rules { strategy, stop, cost: CostModel::WALD_HAVRAN, clipped: false };
+/// let tree = build(&boxes, Aabb::new(DVec3::ZERO, DVec3::splat(10.0)), &rules);
+///
+/// assert!(tree.empty_leaves() > 0);
+/// assert!(matches!(tree.nodes[0].kind(), NodeKind::Inner { split, .. } if split == 1.0 || split == 9.0));
+/// ```
 ///
 /// # Panics
 /// If a box is not valid, lies outside `world`, the rules ask for clipping, there are 2^30 boxes or more, or the tree would

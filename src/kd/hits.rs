@@ -33,6 +33,32 @@ impl<T: Real> Hit<T> {
 }
 
 /// The nearest hit of a ray; at equal t the lowest object number.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::cost::CostModel;
+/// use sahlab::geom::{Line, Ray, Span, Targets};
+/// use sahlab::kd::{Rules, Stack, StopRule, Strategy, build, nearest, occluded};
+/// use sahlab::scene::Scene;
+///
+/// let scene = Scene::load("spd:balls:2")?;
+/// let (strategy, stop) = (Strategy::Sah, StopRule::CostGain { depth: None });
+/// let rules = Rules { strategy, stop, cost: CostModel::WALD_HAVRAN, clipped: false };
+/// let tree = build(&scene.bounds, scene.world, &rules);
+///
+/// let line = Line::new(DVec3::new(2.0, 2.0, 2.0), DVec3::new(-1.0, -1.0, -0.9));
+/// let ray = Ray::new(line, Span::from(0.0));
+/// let mut stack = Stack::default();
+/// let hit = nearest(&tree, &scene.objects, &ray, &mut stack).expect("it looks at the balls");
+/// // The same without a tree.
+/// let all = (0..scene.objects.len() as u32).filter_map(|object| scene.objects.intersect(object, &ray));
+/// assert_eq!(hit.t, all.fold(f64::INFINITY, f64::min));
+/// // What lies before the hit is free.
+/// let before = Ray::new(line, Span { t0: 0.0, t1: 0.99 * hit.t });
+/// assert!(occluded(&tree, &scene.objects, &ray, &mut stack));
+/// assert!(!occluded(&tree, &scene.objects, &before, &mut stack));
+/// # Ok::<(), sahlab::scene::SceneError>(())
+/// ```
 pub fn nearest<W: Walk>(
     walk: &W,
     objects: &(impl Targets<Vector = W::Vector> + ?Sized),

@@ -59,6 +59,32 @@ struct Leaf<T> {
 }
 
 /// The links of a tree's leaves, with the boxes and references of these.
+///
+/// ```
+/// use sahlab::cost::CostModel;
+/// use sahlab::geom::{Ray, Span};
+/// use sahlab::kd::{Links, Rules, Stack, StopRule, Strategy, build, nearest};
+/// use sahlab::rays::SurfaceLines;
+/// use sahlab::scene::Scene;
+///
+/// let scene = Scene::load("simple:soup:200")?;
+/// let (strategy, stop) = (Strategy::Sah, StopRule::CostGain { depth: None });
+/// let rules = Rules { strategy, stop, cost: CostModel::WALD_HAVRAN, clipped: false };
+/// let tree = build(&scene.bounds, scene.world, &rules);
+/// let links = Links::of(&tree);
+/// let facts = links.facts();
+/// assert_eq!(facts.to_leaves + facts.to_inner + facts.outside, 6 * tree.leaves());
+///
+/// // The same hits as with a stack, to the bit.
+/// let mut stack = Stack::default();
+/// for line in (SurfaceLines { world: scene.world, seed: 1 }).range(0..1000) {
+///     let ray = Ray::new(line, Span::from(0.0));
+///     let plain = nearest(&tree, &scene.objects, &ray, &mut stack);
+///     let linked = nearest(&links.walk(&tree), &scene.objects, &ray, &mut stack);
+///     assert_eq!(linked.map(|hit| hit.bits()), plain.map(|hit| hit.bits()));
+/// }
+/// # Ok::<(), sahlab::scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Links<V: Vector> {
     /// Leaves from left to right.

@@ -16,6 +16,24 @@ pub struct Prediction {
 }
 
 /// Predict the counts of a tree.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::cost::CostModel;
+/// use sahlab::geom::Aabb;
+/// use sahlab::kd::{Rules, StopRule, Strategy, build, predict};
+///
+/// // A cube of three boxes, cut once in the middle: one box to the left, two to the right.
+/// let slab = |lo: f64, hi: f64| Aabb::new(DVec3::new(lo, 0.0, 0.0), DVec3::new(hi, 1.0, 1.0));
+/// let (strategy, stop) = (Strategy::SpatialMedian, StopRule::Depth(1));
+/// let rules = Rules { strategy, stop, cost: CostModel::WALD_HAVRAN, clipped: false };
+/// let tree = build(&[slab(0.0, 0.4), slab(0.6, 0.8), slab(0.8, 1.0)], slab(0.0, 1.0), &rules);
+/// let expected = predict(&tree);
+/// // Each half has 4/6 of the cube's surface: a line visits one inner node, 8/6 leaves, and tests 3 times 4/6 objects.
+/// assert!((expected.n_k - 1.0).abs() < 1e-15);
+/// assert!((expected.n_b - 8.0 / 6.0).abs() < 1e-15);
+/// assert!((expected.n_t - 2.0).abs() < 1e-15);
+/// ```
 pub fn predict(tree: &Tree) -> Prediction {
     let root = tree.boxes[0].surface_area();
     let p = tree.boxes.iter().map(|b| b.surface_area() / root);

@@ -9,6 +9,17 @@ use serde::{Deserialize, Serialize};
 ///
 /// Every rule but `depth` and, between its levels, `octree` also ends at an empty node, at a depth bound, and where the
 /// strategy has no candidate plane.
+///
+/// ```
+/// use sahlab::kd::StopRule;
+///
+/// let havran: StopRule = "objects:2:16".parse()?;
+/// assert_eq!(havran, StopRule::Objects { limit: 2, depth: Some(16) });
+/// assert_eq!(havran.depth_bound(1_000_000), 16);
+/// // Without a bound of its own it is 8 + 1.3 log2 N.
+/// assert_eq!("cost-gain".parse::<StopRule>()?.depth_bound(1024), 21);
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum StopRule {

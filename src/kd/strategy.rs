@@ -14,6 +14,15 @@ use super::planes::Fractions;
 /// b_rm is the spatial median (middle of the node), b_om the object median (median of the centres of the objects'
 /// bounds, clipped to the node). A node without objects has no bounds and no object median: only the spatial median can
 /// cut it, which matters under the stop rule `depth`.
+///
+/// ```
+/// use sahlab::kd::Strategy;
+///
+/// assert_eq!("sah".parse(), Ok(Strategy::Sah));
+/// assert_eq!("sah-bins:64".parse::<Strategy>()?.name(), "sah-bins:64");
+/// assert!("cheapest".parse::<Strategy>().is_err());
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(try_from = "String", into = "String")]
 pub enum Strategy {

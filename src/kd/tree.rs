@@ -83,6 +83,31 @@ impl Node {
 }
 
 /// A kd-tree over a scene's objects. Node 0 is the root.
+///
+/// ```
+/// use sahlab::cost::CostModel;
+/// use sahlab::kd::{NodeKind, Rules, StopRule, Strategy, build};
+/// use sahlab::scene::Scene;
+///
+/// let scene = Scene::load("simple:uniform:100")?;
+/// let (strategy, stop) = (Strategy::ObjectMedian, StopRule::Depth(5));
+/// let rules = Rules { strategy, stop, cost: CostModel::WALD_HAVRAN, clipped: false };
+/// let tree = build(&scene.bounds, scene.world, &rules);
+/// assert_eq!((tree.leaves(), tree.inner_nodes(), tree.depth), (32, 31, 5));
+///
+/// // The leaves tile the world, and every object is in one of them at least.
+/// let leaves = || tree.nodes.iter().zip(&tree.boxes).filter(|(node, _)| node.is_leaf());
+/// let volume: f64 = leaves().map(|(_, cell)| cell.volume()).sum();
+/// assert!((volume / scene.world.volume() - 1.0).abs() < 1e-12);
+/// let mut found = vec![false; scene.objects.len()];
+/// for (node, _) in leaves() {
+///     if let NodeKind::Leaf { first, count } = node.kind() {
+///         tree.objects(first, count).iter().for_each(|&object| found[object as usize] = true);
+///     }
+/// }
+/// assert!(found.iter().all(|&found| found));
+/// # Ok::<(), sahlab::scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Tree {
     /// The nodes; all that a traversal reads besides [`references`](Self::references) and the root's box.

@@ -121,6 +121,16 @@ impl fmt::Display for Sampler {
 
 /// One set of points. Sets of different replicates are independent; each is a function of these four values, and point i of
 /// it of them and i.
+///
+/// ```
+/// use sahlab::rays::{PointSet, Sampler};
+///
+/// // Of 256 scrambled Sobol' points, each 256th of the first coordinate's range has one.
+/// let points = PointSet::new(Sampler::Sobol, 1, 0, 256);
+/// let mut cells: Vec<u32> = points.range(0..256).map(|point| (256.0 * point[0]) as u32).collect();
+/// cells.sort_unstable();
+/// assert!(cells.into_iter().eq(0..256));
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PointSet {
     sampler: Sampler,

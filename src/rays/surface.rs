@@ -210,6 +210,22 @@ impl<P: Iterator<Item = [f64; 4]>> Iterator for Lines<P> {
 }
 
 /// The study's lines through a box: line i is a function of the seed and i.
+///
+/// ```
+/// use glam::DVec3;
+/// use sahlab::geom::{Aabb, Span};
+/// use sahlab::rays::SurfaceLines;
+///
+/// let world = Aabb::new(DVec3::ZERO, DVec3::new(1.0, 2.0, 3.0));
+/// let lines = SurfaceLines { world, seed: 1 };
+/// let chord = |line| {
+///     let span = world.clip(&line, Span::FULL).expect("every line hits the box");
+///     span.t1 - span.t0
+/// };
+/// let mean = lines.range(0..100_000).map(chord).sum::<f64>() / 1e5;
+/// // The mean chord of uniform lines through a convex body is 4V/SA.
+/// assert!((mean * world.surface_area() / (4.0 * world.volume()) - 1.0).abs() < 0.01);
+/// ```
 #[derive(Clone, Copy, Debug)]
 pub struct SurfaceLines {
     /// The box every line hits.

@@ -77,6 +77,16 @@ impl Run {
 }
 
 /// Reads `summary.json` and the files that a run of its kind has.
+///
+/// ```
+/// use sahlab::report::read_run;
+///
+/// let run = read_run("data/published/figure3".as_ref())?;
+/// assert!(run.held() && !run.summary.quick);
+/// let names: Vec<_> = run.verdicts().map(|verdict| verdict.name.as_str()).collect();
+/// assert!(names.contains(&"slopes-cover"), "{names:?}");
+/// # Ok::<(), sahlab::report::ReportError>(())
+/// ```
 pub fn read_run(dir: &Path) -> Result<Run, ReportError> {
     let path = dir.join("summary.json");
     let file = open(&path)?;

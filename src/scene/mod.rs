@@ -46,6 +46,18 @@ pub const MAX_OBJECTS: usize = (1 << 27) - 1;
 pub const AREAS: RangeInclusive<f64> = 1e-280..=1e280;
 
 /// A named set of objects. Never empty.
+///
+/// ```
+/// use sahlab::scene::Scene;
+///
+/// let file = Scene::parse("one.obj", b"v 0 0 0\nv 1 0 0\nv 0 2 0\nf 1 2 3\n")?;
+/// assert_eq!((file.counts().as_str(), file.world.surface_area()), ("1 triangle", 4.0));
+/// let made = Scene::load("spd:tetra:2")?;
+/// assert_eq!(made.objects.len(), 16);
+/// let wrong = Scene::load("spd:tetras").unwrap_err().to_string();
+/// assert!(wrong.contains("tetra"), "{wrong}");
+/// # Ok::<(), sahlab::scene::SceneError>(())
+/// ```
 #[derive(Clone, Debug)]
 pub struct Scene {
     /// The name one types to get it, e.g. `spd:balls:4` or a path.

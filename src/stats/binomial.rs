@@ -19,6 +19,14 @@ use std::f64::consts::TAU;
 ///
 /// # Panics
 /// If there are more hits than lines or p is not strictly between 0 and 1.
+///
+/// ```
+/// use sahlab::stats::binomial_tail;
+///
+/// // All of ten lines hit what half of them should: twice 2^-10.
+/// assert!((binomial_tail(10, 10, 0.5) / (2.0 / 1024.0) - 1.0).abs() < 1e-10);
+/// assert_eq!(binomial_tail(5, 10, 0.5), 1.0);
+/// ```
 pub fn binomial_tail(hits: u64, lines: u64, p: f64) -> f64 {
     assert!(hits <= lines, "{hits} hits of {lines} lines");
     assert!(p > 0.0 && p < 1.0, "probability {p} is not in (0, 1)");

@@ -23,6 +23,19 @@ use super::quantile::quantile_of_sorted;
 ///
 /// # Panics
 /// If there are no clusters, the level is not strictly between 0 and 1, or two estimates differ in length.
+///
+/// ```
+/// use sahlab::stats::cluster_bootstrap;
+///
+/// // The mean of six scenes' ratios, with its 95 % interval.
+/// let ratios = [1.1, 0.9, 1.3, 1.0, 1.2, 1.1];
+/// let mean = |scenes: &[usize]| {
+///     let sum: f64 = scenes.iter().map(|&scene| ratios[scene]).sum();
+///     Some(vec![sum / scenes.len() as f64])
+/// };
+/// let interval = cluster_bootstrap(ratios.len(), 2000, 1, 0.95, mean)[0];
+/// assert!(matches!(interval, Some((from, to)) if 0.95 < from && from < 1.1 && 1.1 < to && to < 1.25));
+/// ```
 pub fn cluster_bootstrap(
     clusters: usize,
     draws: usize,

@@ -11,6 +11,13 @@
 ///
 /// # Panics
 /// If a p-value is not in [0, 1].
+///
+/// ```
+/// use sahlab::stats::holm;
+///
+/// // One small p-value of three is not small enough, if any would have done.
+/// assert_eq!(holm(&[0.5, 0.03125, 0.75]), [1.0, 0.09375, 1.0]);
+/// ```
 pub fn holm(p: &[f64]) -> Vec<f64> {
     for value in p {
         assert!(

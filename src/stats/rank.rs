@@ -32,6 +32,13 @@ pub fn concordant(a: &[f64], b: &[f64]) -> Pairs {
 ///
 /// # Panics
 /// If the lengths differ or a value is NaN.
+///
+/// ```
+/// use sahlab::stats::kendall_tau_b;
+///
+/// // Three trees' costs, predicted and counted: of the three pairs, one is the other way round.
+/// assert_eq!(kendall_tau_b(&[1.0, 2.0, 3.0], &[10.0, 30.0, 20.0]), Some(1.0 / 3.0));
+/// ```
 pub fn kendall_tau_b(a: &[f64], b: &[f64]) -> Option<f64> {
     let (Pairs { right, wrong, .. }, [ordered_a, ordered_b]) = compare(a, b);
     // The root of a square is exact: perfect agreement is 1, not nearly 1.

@@ -121,6 +121,19 @@ pub fn least_squares(design: &[f64], columns: usize, y: &[f64]) -> Result<Fit, R
 ///
 /// # Errors
 /// Those of [`least_squares`], and a weight that is not positive and finite.
+///
+/// ```
+/// use sahlab::stats::weighted_least_squares;
+///
+/// // Hits of three nodes against N p, through the origin; weights 1/(p (1 - p)).
+/// let (p, hits) = ([0.5, 0.1, 0.01], [505.0, 98.0, 11.0]);
+/// let expected = p.map(|p| 1000.0 * p);
+/// let fit = weighted_least_squares(&expected, 1, &hits, &p.map(|p| 1.0 / (p * (1.0 - p))))?;
+/// assert!((fit.coefficients[0] - 1.0).abs() < 3.0 * fit.standard_errors[0]);
+/// // A column twice tells nothing new.
+/// assert!(weighted_least_squares(&[1.0, 1.0, 2.0, 2.0, 3.0, 3.0], 2, &[1.0, 2.0, 4.0], &[1.0; 3]).is_err());
+/// # Ok::<(), sahlab::stats::RegressionError>(())
+/// ```
 pub fn weighted_least_squares(
     design: &[f64],
     columns: usize,

@@ -56,6 +56,14 @@ pub fn normal_quantile(level: f64) -> f64 {
 ///
 /// # Panics
 /// If the level is not strictly between 0 and 1, or there are no intervals.
+///
+/// ```
+/// use sahlab::stats::simultaneous_quantile;
+///
+/// // An interval at 99 % reaches 2.58 standard errors to each side, 132 that hold together 4.0.
+/// assert!((simultaneous_quantile(0.99, 1) - 2.5758).abs() < 1e-4);
+/// assert!((simultaneous_quantile(0.99, 132) - 3.96).abs() < 0.01);
+/// ```
 pub fn simultaneous_quantile(level: f64, intervals: usize) -> f64 {
     assert!(level > 0.0 && level < 1.0, "level {level} is not in (0, 1)");
     assert!(intervals > 0, "no intervals");

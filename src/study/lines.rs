@@ -6,6 +6,16 @@ use super::needed::TRIAL;
 use super::plan::{Wrong, wrong_unless};
 
 /// How many lines a cell counts.
+///
+/// ```
+/// use sahlab::study::LineRule;
+///
+/// // Scores of standard deviation 0.5 and a wanted error of 1 %: (5.9 * 0.5 / 0.01)^2 lines, the next power of two times 1024.
+/// let rule = LineRule::for_error(0.01, 1024, 1 << 20)?;
+/// assert_eq!(rule.choose(0.5), 1 << 17);
+/// assert!(LineRule::for_error(0.01, 1 << 20, 1024).is_err());
+/// # Ok::<(), String>(())
+/// ```
 #[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LineRule {

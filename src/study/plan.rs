@@ -40,6 +40,23 @@ pub use overrides::Overrides;
 use table::{overlay, place};
 
 /// What an experiment asks for.
+///
+/// ```
+/// use sahlab::study::Plan;
+/// use sahlab::study::plan::Overrides;
+///
+/// let path = "experiments/validate.toml";
+/// let whole = Plan::read(path.as_ref(), Overrides::default())?;
+/// let quick = Plan::read(path.as_ref(), Overrides { quick: true, ..Overrides::default() })?;
+/// assert_eq!((whole.name.as_str(), quick.name.as_str()), ("validate", "validate-quick"));
+/// assert!(quick.scenes.len() < whole.scenes.len());
+///
+/// // What is wrong is told with its place.
+/// let typo = "kind = \"hits-vs-area\"\nqestion = \"Does it?\"\n";
+/// let wrong = Plan::parse(typo, "e.toml", "e", Overrides::default()).unwrap_err().to_string();
+/// assert!(wrong.starts_with("e.toml"), "{wrong}");
+/// # Ok::<(), sahlab::study::PlanError>(())
+/// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Plan {
     /// The file's stem, with `-quick` behind it in the quick form: the name of its folders under `data/` and `plots/`.
