@@ -11,7 +11,7 @@ use super::number::{Z99, decimals_for, digits_for, significant};
 use super::palette::{INK, MUTED, faded};
 use super::panel::{Frame, Panel};
 use super::series::{Series, constants, provenance};
-use super::text::{LEADING, MEDIUM, SMALL, caption_lines, text_width, title_and_caption};
+use super::text::{LEADING, MEDIUM, SMALL, caption_lines, text_width};
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Does the cost the heuristic predicts equal the cost counted?";
@@ -133,39 +133,44 @@ pub fn figure(cells: &[CellRecord], quick: bool) -> Result<Figure, ReportError> 
     let top = 54.0 + LEGEND_LEADING * (rows - 1) as f64;
     let bottom = top + 184.0;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Ok(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        costs(
-            pen,
-            cells,
-            &series,
-            Frame {
-                left: 44.0,
-                top,
-                right: 226.0,
-                bottom,
-            },
-        );
-        let reach = reach(cells);
-        let y = Axis::linear("", -reach, reach, 5);
-        let labels = y.ticks.iter().map(|tick| text_width(&tick.label, SMALL));
-        // Beside the widest tick label.
-        let side = FIRST - 7.5 - labels.fold(0.0, f64::max);
-        let middle = (side, (top + bottom) / 2.0);
-        let label = "counted / predicted − 1, per cent";
-        pen.upright(label, middle, MEDIUM, INK, (HPos::Center, VPos::Bottom));
-        for quantity in 0..4 {
-            let (column, row) = (f64::from(quantity % 2), f64::from(quantity / 2));
-            let frame = Frame {
-                left: FIRST + 122.0 * column,
-                top: top + 106.0 * row,
-                right: FIRST + 106.0 + 122.0 * column,
-                bottom: top + 78.0 + 106.0 * row,
-            };
-            deviation(pen, cells, &series, quantity as usize, frame, y.clone());
-        }
-    }))
+    Ok(Figure::draw(
+        TITLE,
+        (&caption, bottom + 36.0),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            costs(
+                pen,
+                cells,
+                &series,
+                Frame {
+                    left: 44.0,
+                    top,
+                    right: 226.0,
+                    bottom,
+                },
+            );
+            let reach = reach(cells);
+            let y = Axis::linear("", -reach, reach, 5);
+            let labels = y.ticks.iter().map(|tick| text_width(&tick.label, SMALL));
+            // Beside the widest tick label.
+            let side = FIRST - 7.5 - labels.fold(0.0, f64::max);
+            let middle = (side, (top + bottom) / 2.0);
+            let label = "counted / predicted − 1, per cent";
+            pen.upright(label, middle, MEDIUM, INK, (HPos::Center, VPos::Bottom));
+            for quantity in 0..4 {
+                let (column, row) = (f64::from(quantity % 2), f64::from(quantity / 2));
+                let frame = Frame {
+                    left: FIRST + 122.0 * column,
+                    top: top + 106.0 * row,
+                    right: FIRST + 106.0 + 122.0 * column,
+                    bottom: top + 78.0 + 106.0 * row,
+                };
+                deviation(pen, cells, &series, quantity as usize, frame, y.clone());
+            }
+        },
+    ))
 }
 
 /// C counted against C predicted, with y = x.

@@ -12,6 +12,7 @@ use plotters::style::{Color, FontTransform, IntoFont, RGBAColor, ShapeStyle, Tex
 
 use super::bitmap::Bitmap;
 use super::canvas::{Canvas, Placed};
+use super::text::title_and_caption;
 use super::{raster, svg};
 
 /// Width of every figure, in points: 7.2 inches, the text of a page.
@@ -67,18 +68,34 @@ pub struct Figure {
     pub size: (u32, u32),
     /// What the picture shows, in words.
     pub title: String,
+    /// The text that stands under it.
+    pub caption: String,
     /// Everything drawn, in order.
     pub shapes: Vec<Shape>,
+    /// How many of the shapes, the first ones, are the title and the caption.
+    pub words: usize,
 }
 
 impl Figure {
-    /// Draws a figure of `width` by `height` points.
-    pub fn draw(title: &str, width: f64, height: f64, draw: impl FnOnce(&Pen)) -> Self {
+    /// Draws a figure of `width` by `height` points: the title, the caption's lines from this baseline down, then the rest.
+    pub fn draw(
+        title: &str,
+        (caption, baseline): (&[String], f64),
+        width: f64,
+        height: f64,
+        draw: impl FnOnce(&Pen),
+    ) -> Self {
         let mut figure = Figure {
             size: (units(width) as u32, units(height) as u32),
             title: title.to_owned(),
+            caption: caption.join(" "),
             shapes: Vec::new(),
+            words: 0,
         };
+        let words = Pen(Canvas::new(&mut figure).into_drawing_area());
+        title_and_caption(&words, title, LEFT, caption, baseline);
+        drop(words);
+        figure.words = figure.shapes.len();
         draw(&Pen(Canvas::new(&mut figure).into_drawing_area()));
         figure
     }

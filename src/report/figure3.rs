@@ -16,7 +16,7 @@ use super::legend::{Key, legend};
 use super::number::{Z99, counted, decimals_for, fixed, grouped, significant};
 use super::palette::{BLUE, INK, Look, Marker, SKY, VERMILLION, faded};
 use super::panel::{Frame, Panel};
-use super::text::{LEADING, caption_lines, title_and_caption};
+use super::text::{LEADING, caption_lines};
 use crate::study::records::{CellRecord, NodeRecord};
 
 /// Above this many nodes a density is drawn, not every node.
@@ -48,14 +48,19 @@ pub fn figure(cell: &CellRecord, nodes: &[NodeRecord], quick: bool) -> Result<Fi
     let data = Data::new(cell, nodes)?;
     let caption = caption_lines(data.caption(), WIDTH - 2.0 * LEFT, quick);
     let height = CAPTION + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Ok(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, CAPTION);
-        let last_row = legend(pen, (LEFT, EDGE), LEGEND, &data.keys());
-        debug_assert!(last_row <= LEGEND, "the legend fits one row");
-        data.linear(pen);
-        data.log(pen);
-        data.deviations(pen);
-    }))
+    Ok(Figure::draw(
+        TITLE,
+        (&caption, CAPTION),
+        WIDTH,
+        height,
+        |pen| {
+            let last_row = legend(pen, (LEFT, EDGE), LEGEND, &data.keys());
+            debug_assert!(last_row <= LEGEND, "the legend fits one row");
+            data.linear(pen);
+            data.log(pen);
+            data.deviations(pen);
+        },
+    ))
 }
 
 struct Data<'r> {

@@ -3,7 +3,7 @@
 use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::legend::{Key, LEGEND_LEADING, legend, rows_of};
 use super::panel::Frame;
-use super::text::{LEADING, caption_lines, title_and_caption};
+use super::text::{LEADING, caption_lines};
 use crate::study::records::Summary;
 
 /// Where the panels of a figure stand; all lengths in points.
@@ -81,8 +81,7 @@ pub fn page(
     let top = 33.0 + LEGEND_LEADING * (rows_of(room, keys) - 1) as f64;
     let baseline = top + high + 36.0;
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(title, WIDTH, height, |pen| {
-        title_and_caption(pen, title, LEFT, &caption, baseline);
+    Figure::draw(title, (&caption, baseline), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, keys);
         draw(pen, top);
     })

@@ -1,11 +1,12 @@
 //! Figures and tables of a finished run, from its files alone.
 //!
-//! [`read_run`] reads a data directory; [`write_plots`] and [`write_tables`] are functions of what it read. Nothing here
+//! [`read_run`] reads a data directory; [`write_plots`], [`write_tables`] and [`write_report`] are functions of what it read. Nothing here
 //! knows of trees, scenes or lines: the only imports from the rest are the row types of [`crate::study::records`], the
 //! cost formula and [`crate::files`].
 
 mod assumptions;
 mod axis;
+mod bare;
 mod bitmap;
 mod canvas;
 mod choices;
@@ -19,12 +20,14 @@ mod fixture;
 mod glyphs;
 mod grid;
 mod hits;
+mod html;
 mod legend;
 mod means;
 mod number;
 mod palette;
 mod panel;
 mod partition;
+mod parts;
 mod raster;
 mod read;
 pub mod render;
@@ -56,6 +59,7 @@ pub use bitmap::Bitmap;
 pub use cost_vs_work::CostVsWork;
 pub use figure::Figure;
 pub use hits::Hits;
+pub use html::{REPORT, write_report};
 pub use read::{Content, Run, read_run};
 pub use speed_vs_error::SpeedVsError;
 pub use split_cost::SplitCost;
@@ -106,6 +110,14 @@ pub enum ReportError {
         /// What is missing, and where.
         what: String,
     },
+    /// What tells where a run comes from is not what it should be.
+    #[error("{path}: {what}", path = path.display())]
+    Origin {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
     /// A picture of a run is not what it should be.
     #[error("{path}: {what}", path = path.display())]
     Picture {
@@ -151,19 +163,8 @@ pub enum ReportError {
 /// Other SVG and PNG files there, of an earlier form of the run, are removed, but for [`RENDER`] and but in the run's own
 /// data directory.
 pub fn write_plots(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> {
-    let figures = match &run.content {
-        Content::Hits(hits) => named(hits.figures(&run.summary)?),
-        Content::Strategies(strategies) => strategies.figures(&run.summary)?,
-        Content::Termination(trees) => trees.figures(&run.summary)?,
-        Content::SplitCost(nodes) => nodes.figures(&run.summary),
-        Content::CostVsWork(trees) => trees.figures(&run.summary),
-        Content::Assumptions(rays) => rays.figures(&run.summary),
-        Content::SpeedVsError(parts) => parts.figures(&run.summary),
-        Content::Stability(cases) => cases.figures(&run.summary),
-        Content::Traversal(walks) => walks.figures(&run.summary),
-    };
     let mut files = Vec::new();
-    for (name, figure) in figures {
+    for (name, figure) in run.figures()? {
         files.extend(write_figure(out, &name, &figure)?);
     }
     if !holds_data(run, out) {
@@ -199,26 +200,15 @@ pub fn write_tables(run: &Run, out: &Path) -> Result<Vec<PathBuf>, ReportError> 
             path: out.to_owned(),
         });
     }
-    let (tables, texts) = match &run.content {
-        Content::Hits(hits) => (named(hits.tables(&run.summary)), Vec::new()),
-        Content::Strategies(strategies) => (strategies.tables(&run.summary), strategies.texts()),
-        Content::Termination(trees) => (named(trees.tables(&run.summary)), Vec::new()),
-        Content::SplitCost(nodes) => (named(nodes.tables(&run.summary)), Vec::new()),
-        Content::CostVsWork(trees) => (named(trees.tables(&run.summary)), trees.texts()),
-        Content::Assumptions(rays) => (named(rays.tables(&run.summary)), Vec::new()),
-        Content::SpeedVsError(parts) => (named(parts.tables(&run.summary)), Vec::new()),
-        Content::Stability(cases) => (named(cases.tables(&run.summary)), Vec::new()),
-        Content::Traversal(walks) => (named(walks.tables(&run.summary)), walks.texts()),
-    };
     let command = &run.summary.command;
     let mut files = Vec::new();
-    for (name, text) in texts {
+    for (name, text) in run.texts() {
         let path = out.join(format!("{name}.md"));
         let text = format!("<!-- {} -->\n\n{text}", table::generated_by(command));
         write(&path, text.as_bytes())?;
         files.push(path);
     }
-    for (name, table) in tables {
+    for (name, table) in run.tables() {
         let texts = [
             ("md", table.to_markdown(command)),
             ("tex", table.to_latex(command)),
@@ -262,12 +252,6 @@ fn remove_others(out: &Path, extensions: &[&str], written: &[PathBuf]) -> Result
         }
     }
     Ok(())
-}
-
-/// Names of files that are known beforehand.
-fn named<T>(all: Vec<(&str, T)>) -> Vec<(String, T)> {
-    let named = all.into_iter().map(|(name, one)| (name.to_owned(), one));
-    named.collect()
 }
 
 fn write(path: &Path, bytes: &[u8]) -> Result<(), ReportError> {

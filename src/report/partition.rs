@@ -8,7 +8,7 @@ use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::number::{counted, significant};
 use super::palette::{BLUE, INK, MUTED, VERMILLION, faded};
 use super::series::distinct;
-use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
+use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit};
 use crate::study::records::{OutlineRecord, SliceRecord};
 
 const TITLE: &str = "Where strategies cut: a slice through the cells of their trees";
@@ -67,30 +67,38 @@ pub fn figure(cells: &[SliceRecord], outlines: &[OutlineRecord], quick: bool) ->
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, quick);
     let page = bottom + 18.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(TITLE, WIDTH, page, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 18.0);
-        for (i, strategy) in strategies.iter().enumerate() {
-            let left = LEFT + (room + GAP) * (i % columns) as f64 + (room - scale * across) / 2.0;
-            let floor =
-                top + (NAME + height) * (i / columns + 1) as f64 + GAP * (i / columns) as f64;
-            let place = |u: f64, v: f64| (left + scale * (u - u_lo), floor - scale * (v - v_lo));
-            let own: Vec<&SliceRecord> = cells.iter().filter(|c| c.strategy == *strategy).collect();
-            heading(
-                pen,
-                strategy,
-                own.len() as u64,
-                (left, floor - height),
-                room,
-            );
-            for cell in &own {
-                draw(pen, cell, most, &window, place);
+    Some(Figure::draw(
+        TITLE,
+        (&caption, bottom + 18.0),
+        WIDTH,
+        page,
+        |pen| {
+            for (i, strategy) in strategies.iter().enumerate() {
+                let left =
+                    LEFT + (room + GAP) * (i % columns) as f64 + (room - scale * across) / 2.0;
+                let floor =
+                    top + (NAME + height) * (i / columns + 1) as f64 + GAP * (i / columns) as f64;
+                let place =
+                    |u: f64, v: f64| (left + scale * (u - u_lo), floor - scale * (v - v_lo));
+                let own: Vec<&SliceRecord> =
+                    cells.iter().filter(|c| c.strategy == *strategy).collect();
+                heading(
+                    pen,
+                    strategy,
+                    own.len() as u64,
+                    (left, floor - height),
+                    room,
+                );
+                for cell in &own {
+                    draw(pen, cell, most, &window, place);
+                }
+                let pieces = outlines.iter().filter_map(|piece| window.clip(piece));
+                for ends in pieces {
+                    pen.line(&ends.map(|(u, v)| place(u, v)), VERMILLION, 0.35);
+                }
             }
-            let pieces = outlines.iter().filter_map(|piece| window.clip(piece));
-            for ends in pieces {
-                pen.line(&ends.map(|(u, v)| place(u, v)), VERMILLION, 0.35);
-            }
-        }
-    }))
+        },
+    ))
 }
 
 fn heading(pen: &Pen, strategy: &str, cells: u64, (left, top): (f64, f64), room: f64) {

@@ -9,7 +9,7 @@ use super::figure::{Figure, LEFT, Pen, WIDTH};
 use super::glyphs::SUB;
 use super::number::{counted, grouped};
 use super::palette::{AXIS, INK, MUTED, viridis};
-use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
+use super::text::{LEADING, MEDIUM, SMALL, caption_lines, fit};
 
 /// Side of each of the two squares, and the gap between them.
 const SIDE: f64 = 226.0;
@@ -44,8 +44,7 @@ pub fn figure(render: &Render) -> Figure {
     let baseline = BOTTOM + 14.0;
     let height = baseline + LEADING * (caption.len() as f64 - 1.0) + 6.0;
     let title = format!("What a picture of {} costs", render.scene);
-    Figure::draw(&title, WIDTH, height, |pen| {
-        title_and_caption(pen, &title, LEFT, &caption, baseline);
+    Figure::draw(&title, (&caption, baseline), WIDTH, height, |pen| {
         let left = LEFT + SIDE + GAP;
         for (heading, left) in [(render.scene.as_str(), LEFT), (scale.label.as_str(), left)] {
             let at = (left, TOP - 4.0);

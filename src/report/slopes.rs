@@ -9,7 +9,7 @@ use super::number::Z99;
 use super::palette::{INK, SKY, faded};
 use super::panel::{Frame, Panel};
 use super::series::{Series, distinct, provenance};
-use super::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title_and_caption};
+use super::text::{LEADING, MEDIUM, caption_lines, fit, text_width};
 use crate::study::records::CellRecord;
 
 const TITLE: &str = "Do hits grow in proportion to surface area, for every scene and strategy?";
@@ -62,54 +62,59 @@ pub fn figure(cells: &[CellRecord], target: f64, quick: bool) -> Option<Figure> 
         bottom,
     };
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        let ends = estimates
-            .iter()
-            .flat_map(|e| [e.percent - e.half, e.percent, e.percent + e.half]);
-        let reach = extent(ends.map(f64::abs))
-            .map_or(0.0, |(_, most)| most)
-            .max(1.25 * target)
-            * 1.05;
-        let x = Axis::linear("slope − 1, per cent", -reach, reach, 8);
-        // Downwards, in rows; the scenes' names take the place of ticks.
-        let y = Axis {
-            ticks: Vec::new(),
-            ..Axis::linear("", -(series.scenes.len() as f64), 0.0, 1)
-        };
-        let mut panel = Panel::new(pen, frame, x, y);
-        panel.rectangle((-target, panel.y.lo), (target, 0.0), faded(SKY, 0.25));
-        for (i, name) in names.iter().enumerate() {
-            let middle = top + row * (i as f64 + 0.5);
-            pen.text(
-                name,
-                (frame.left - 6.0, middle),
-                MEDIUM,
-                INK,
-                (HPos::Right, VPos::Center),
-            );
-            if i > 0 {
-                let separator = -(i as f64);
-                panel.line(
-                    &[(-reach, separator), (reach, separator)],
-                    faded(INK, 0.25),
-                    0.4,
+    Some(Figure::draw(
+        TITLE,
+        (&caption, bottom + 36.0),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            let ends = estimates
+                .iter()
+                .flat_map(|e| [e.percent - e.half, e.percent, e.percent + e.half]);
+            let reach = extent(ends.map(f64::abs))
+                .map_or(0.0, |(_, most)| most)
+                .max(1.25 * target)
+                * 1.05;
+            let x = Axis::linear("slope − 1, per cent", -reach, reach, 8);
+            // Downwards, in rows; the scenes' names take the place of ticks.
+            let y = Axis {
+                ticks: Vec::new(),
+                ..Axis::linear("", -(series.scenes.len() as f64), 0.0, 1)
+            };
+            let mut panel = Panel::new(pen, frame, x, y);
+            panel.rectangle((-target, panel.y.lo), (target, 0.0), faded(SKY, 0.25));
+            for (i, name) in names.iter().enumerate() {
+                let middle = top + row * (i as f64 + 0.5);
+                pen.text(
+                    name,
+                    (frame.left - 6.0, middle),
+                    MEDIUM,
+                    INK,
+                    (HPos::Right, VPos::Center),
                 );
+                if i > 0 {
+                    let separator = -(i as f64);
+                    panel.line(
+                        &[(-reach, separator), (reach, separator)],
+                        faded(INK, 0.25),
+                        0.4,
+                    );
+                }
             }
-        }
-        panel.line(&[(0.0, panel.y.lo), (0.0, 0.0)], INK, 0.7);
-        for e in &estimates {
-            let down = (e.strategy as f64 + 0.5) * PITCH + 0.5 * ROW;
-            let y = -(e.scene as f64 + down / row);
-            panel.line(
-                &[(e.percent - e.half, y), (e.percent + e.half, y)],
-                faded(e.look.colour, 0.75),
-                1.0,
-            );
-            panel.mark((e.percent, y), e.look.marker, 1.9, e.look.colour);
-        }
-    }))
+            panel.line(&[(0.0, panel.y.lo), (0.0, 0.0)], INK, 0.7);
+            for e in &estimates {
+                let down = (e.strategy as f64 + 0.5) * PITCH + 0.5 * ROW;
+                let y = -(e.scene as f64 + down / row);
+                panel.line(
+                    &[(e.percent - e.half, y), (e.percent + e.half, y)],
+                    faded(e.look.colour, 0.75),
+                    1.0,
+                );
+                panel.mark((e.percent, y), e.look.marker, 1.9, e.look.colour);
+            }
+        },
+    ))
 }
 
 /// The cells that have a slope and its error.

@@ -18,6 +18,25 @@ pub fn document(figure: &Figure) -> String {
         height / FINER / UNITS,
         escape(&figure.title),
     );
+    drawing(&mut out, figure);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// The figure as an element of a page, which sets its size and its ground. No part of it has a name, so that several can stand
+/// in one page.
+pub fn element_of_page(figure: &Figure) -> String {
+    let [width, height] = [figure.size.0, figure.size.1].map(|size| f64::from(size) * FINER);
+    let title = escape(&figure.title).replace('"', "&quot;");
+    let mut out =
+        format!("<svg role=\"img\" aria-label=\"{title}\" viewBox=\"0 0 {width} {height}\">\n");
+    drawing(&mut out, figure);
+    out.push_str("</svg>\n");
+    out
+}
+
+/// All shapes, neighbours of one paint in one group.
+fn drawing(out: &mut String, figure: &Figure) {
     let mut open = String::new();
     for shape in &figure.shapes {
         let paint = paint(shape);
@@ -27,11 +46,9 @@ pub fn document(figure: &Figure) -> String {
             let _ = writeln!(out, "<g {paint}>");
             open = paint;
         }
-        element(&mut out, &shape.form);
+        element(out, &shape.form);
     }
     out.push_str(if open.is_empty() { "" } else { "</g>\n" });
-    out.push_str("</svg>\n");
-    out
 }
 
 fn paint(shape: &Shape) -> String {

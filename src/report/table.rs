@@ -123,7 +123,7 @@ impl Cell {
         }
     }
 
-    fn show(&self) -> String {
+    pub(in crate::report) fn show(&self) -> String {
         match self {
             _ if !self.is_known() => "–".to_owned(),
             Cell::Text(text) => text.clone(),
@@ -155,7 +155,7 @@ impl Cell {
         }
     }
 
-    fn raw(&self) -> String {
+    pub(in crate::report) fn raw(&self) -> String {
         match self {
             _ if !self.is_known() => String::new(),
             Cell::Text(text) => text.clone(),

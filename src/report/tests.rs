@@ -126,7 +126,7 @@ fn many_nodes_are_drawn_as_a_density() {
 
 #[test]
 fn a_png_has_size_and_resolution() {
-    let figure = Figure::draw("", 72.0, 36.0, |_| {});
+    let figure = Figure::draw("", (&[], 0.0), 72.0, 36.0, |_| {});
     let bytes = figure.png(216.0).unwrap();
     let reader = png::Decoder::new(std::io::Cursor::new(bytes))
         .read_info()
@@ -141,7 +141,7 @@ fn a_png_has_size_and_resolution() {
 
 #[test]
 fn svg_text_is_escaped() {
-    let figure = Figure::draw("a < b & c", 10.0, 10.0, |_| {});
+    let figure = Figure::draw("a < b & c", (&[], 0.0), 10.0, 10.0, |_| {});
     assert!(figure.svg().contains("<title>a &lt; b &amp; c</title>"));
 }
 

@@ -30,7 +30,7 @@ pub struct Cli {
 /// Flags of every command.
 #[derive(Args, Clone)]
 pub struct Common {
-    /// Folder that gets data/NAME and plots/NAME [default: the current one; for `plots` and `tables` the run's own]; for
+    /// Folder that gets data/NAME and plots/NAME [default: the current one; for `plots`, `tables` and `report` the run's own]; for
     /// `archive` and `verify` see there.
     #[arg(short, long, global = true, value_name = "DIR")]
     pub out: Option<PathBuf>,
@@ -177,6 +177,13 @@ pub enum Command {
     /// Write the tables of a finished run again, from its data alone.
     #[command(after_help = examples::TABLES)]
     Tables {
+        /// Data folder of the run, e.g. data/validate.
+        #[arg(value_name = "DIR")]
+        folder: PathBuf,
+    },
+    /// Write the page of a finished run, report.html beside its figures, again from its data alone.
+    #[command(after_help = examples::REPORT)]
+    Report {
         /// Data folder of the run, e.g. data/validate.
         #[arg(value_name = "DIR")]
         folder: PathBuf,

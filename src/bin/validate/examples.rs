@@ -54,6 +54,11 @@ pub const TABLES: &str = "Examples:
   validate tables data/validate                       into data/validate/tables
   validate tables data/published/figure3 --out again  into again/data/figure3/tables";
 
+/// Of `report`.
+pub const REPORT: &str = "Examples:
+  validate report data/validate                       into plots/validate/report.html
+  validate report data/published/figure3 --out again  into again/plots/figure3/report.html";
+
 /// Of `archive`.
 pub const ARCHIVE: &str = "Examples:
   validate archive data/validate                      into archives/validate.tar.gz

@@ -22,7 +22,7 @@ use sahlab::cost::CostModel;
 use sahlab::files::{self, write_atomic};
 use sahlab::kd::{Rules, Strategy};
 use sahlab::rays::{LineLaw, Source};
-use sahlab::report::{Run, screen, write_plots, write_tables};
+use sahlab::report::{Run, screen, write_plots, write_report, write_tables};
 use sahlab::scene::{Scene, catalogue};
 use sahlab::study::plan::{Overrides, PlanError};
 use sahlab::study::speed_vs_error::asked::Method;
@@ -141,7 +141,10 @@ fn execute(cli: &Cli) -> Result<bool> {
     let writes = matches!(
         cli.command,
         Some(
-            Command::Plots { .. } | Command::Tables { .. } | Command::Publish { check: false, .. }
+            Command::Plots { .. }
+                | Command::Report { .. }
+                | Command::Tables { .. }
+                | Command::Publish { check: false, .. }
         )
     );
     if common.dry_run && writes {
@@ -239,12 +242,14 @@ fn execute(cli: &Cli) -> Result<bool> {
         Some(Command::List { what }) => print(&list(*what)).map(|()| true).map_err(Into::into),
         Some(Command::Plots { folder }) => {
             let run = run::read(folder)?;
-            let plots = match &common.out {
-                Some(out) => out.join("plots").join(run::name_of(folder)?),
-                None => run::plots_of(folder)?,
-            };
-            let files = write_plots(&run, &plots)?;
+            let files = write_plots(&run, &run::plots_for(folder, common)?)?;
             print(&paths(&files))?;
+            Ok(true)
+        }
+        Some(Command::Report { folder }) => {
+            let run = run::read(folder)?;
+            let page = write_report(&run, &run::plots_for(folder, common)?)?;
+            print(&paths(&[page]))?;
             Ok(true)
         }
         Some(Command::Tables { folder }) => {

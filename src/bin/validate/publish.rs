@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use sahlab::files::write_atomic;
+use sahlab::report::REPORT;
 use sahlab::study::plan::is_folder_name;
 
 use crate::output::{note, print};
@@ -180,7 +181,7 @@ fn check(name: &str, data: &Path) -> Result<()> {
 
 /// What is not published: what is only there to resume, and what is too large to keep and quickly made again.
 fn stays_behind(name: &str) -> bool {
-    ["cells", "nodes.csv", "pictures"].contains(&name) || name.starts_with("render-")
+    ["cells", "nodes.csv", "pictures", REPORT].contains(&name) || name.starts_with("render-")
 }
 
 /// Copy a folder, without what [`stays_behind`].

@@ -108,8 +108,14 @@ pub fn report(plan: &Plan, common: &Common, show: fn(&Run) -> String) -> Result<
     let run = report::read_run(&data)?;
     report::write_tables(&run, &data.join("tables"))?;
     report::write_plots(&run, &plots)?;
+    let page = report::write_report(&run, &plots)?;
     if !common.json {
-        let files = format!("data   {}\nplots  {}\n", data.display(), plots.display());
+        let files = format!(
+            "data   {}\nplots  {}\nreport {}\n",
+            data.display(),
+            plots.display(),
+            page.display()
+        );
         print(&(show(&run) + &screen::speed(&run) + &files))?;
     }
     Ok(run)
@@ -192,4 +198,12 @@ pub fn plots_of(data: &Path) -> Result<PathBuf> {
         .and_then(Path::parent)
         .unwrap_or(Path::new("."));
     Ok(root.join("plots").join(name))
+}
+
+/// The folder that a command on a finished run puts figures into: the run's own, or one below --out.
+pub fn plots_for(data: &Path, common: &Common) -> Result<PathBuf> {
+    match &common.out {
+        Some(out) => Ok(out.join("plots").join(name_of(data)?)),
+        None => plots_of(data),
+    }
 }

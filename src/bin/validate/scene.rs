@@ -6,7 +6,7 @@ use anyhow::Result;
 use sahlab::cost::CostModel;
 use sahlab::kd::{Ask, Rules, StopRule, Strategy};
 use sahlab::rays::{LineLaw, Source, file};
-use sahlab::report::screen;
+use sahlab::report::{screen, write_report};
 use sahlab::scene::Scene;
 use sahlab::study::hits::HitsVsArea;
 use sahlab::study::hits::asked::{Expect, Figure};
@@ -59,8 +59,10 @@ pub fn one_scene(asked: &OneScene<'_>, common: &Common, overrides: Overrides) ->
             cost: plan.cost,
             clipped: asked.clipped,
         };
-        let [_, plots] = run::folders(plan, common);
+        let [data, plots] = run::folders(plan, common);
         render::render(&scenes[0], look, &rules, plan.quick, &plots)?;
+        // Once more, now that there is a picture for it.
+        write_report(&run::read(&data)?, &plots)?;
     }
     Ok(held)
 }

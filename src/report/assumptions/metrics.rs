@@ -16,7 +16,7 @@ use crate::report::palette::{AXIS, INK, Look, MUTED, Marker, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
 use crate::report::table::{Cell, Column, Table};
-use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
+use crate::report::text::{LEADING, SMALL, caption_lines};
 use crate::study::records::Summary;
 pub use fit::AREA;
 use fit::{Fit, suited};
@@ -63,8 +63,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let rows = Rows::of(run, top);
     let bottom = rows.bottom();
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+    Figure::draw(TITLE, (&caption, bottom + 36.0), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         let edge = WIDTH - LEFT;
         rows.draw(pen, edge);

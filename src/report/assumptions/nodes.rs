@@ -10,9 +10,7 @@ use crate::report::legend::{Key, legend};
 use crate::report::number::{fixed, grouped};
 use crate::report::palette::{INK, MUTED, SKY, faded, viridis};
 use crate::report::panel::{Frame, Panel};
-use crate::report::text::{
-    LEADING, MEDIUM, SMALL, caption_lines, fit, text_width, title_and_caption,
-};
+use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, text_width};
 use crate::study::records::{Summary, VisitRecord};
 use plotters::style::RGBAColor;
 use plotters::style::text_anchor::{HPos, VPos};
@@ -70,8 +68,7 @@ pub fn figure(
     let lines = sets.len().div_ceil(COLUMNS);
     let bottom = FIRST.1 + PITCH.1 * (lines - 1) as f64 + SIZE.1;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+    Figure::draw(TITLE, (&caption, bottom + 36.0), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         for (i, set) in sets.iter().enumerate() {
             let left = FIRST.0 + PITCH.0 * (i % COLUMNS) as f64;

@@ -9,7 +9,7 @@ use crate::report::legend::{Key, legend};
 use crate::report::number::{fixed, percent_above};
 use crate::report::palette::{INK, Look, MUTED, Marker, VERMILLION, viridis};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, SMALL, caption_lines, fit, title_and_caption};
+use crate::report::text::{LEADING, SMALL, caption_lines, fit};
 use crate::study::records::{OrderRecord, Summary};
 use plotters::style::RGBAColor;
 
@@ -51,8 +51,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let width = ((WIDTH - LEFT - rows.right - 4.0) / scenes.len() as f64).min(WIDEST);
     let end = rows.right + 4.0 + width * scenes.len() as f64;
     let height = bottom + 14.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 14.0);
+    Figure::draw(TITLE, (&caption, bottom + 14.0), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         rows.draw(pen, end);
         for (c, scene) in scenes.iter().enumerate() {

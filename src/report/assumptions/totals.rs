@@ -11,7 +11,7 @@ use crate::report::number::fixed;
 use crate::report::palette::{INK, Look, MUTED, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
+use crate::report::text::{LEADING, SMALL, caption_lines};
 use crate::study::records::{BiasRecord, Summary};
 
 const TITLE: &str =
@@ -49,8 +49,7 @@ pub fn figure(run: &Assumptions, summary: &Summary) -> Figure {
     let rows = Rows::of(run, top);
     let bottom = rows.bottom();
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+    Figure::draw(TITLE, (&caption, bottom + 36.0), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         let edge = WIDTH - LEFT;
         rows.draw(pen, edge);

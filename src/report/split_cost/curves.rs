@@ -8,7 +8,7 @@ use crate::report::number::counted;
 use crate::report::palette::{AXIS, BLUE, GREEN, INK, Look, Marker, SKY, VERMILLION, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, title_and_caption};
+use crate::report::text::{LEADING, MEDIUM, caption_lines, fit};
 use crate::study::records::{CurveRecord, Summary};
 
 const TITLE: &str = "Where is the cheapest plane? The split cost across a node";
@@ -60,23 +60,28 @@ pub fn figure(nodes: &[Node], points: &[CurveRecord], summary: &Summary) -> Opti
     let rows = shown.len().div_ceil(2);
     let bottom = top + PITCH.1 * (rows - 1) as f64 + SIZE.1;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        for (i, node) in shown.iter().enumerate() {
-            let (left, top) = (
-                FIRST + PITCH.0 * (i % 2) as f64,
-                top + PITCH.1 * (i / 2) as f64,
-            );
-            let frame = Frame {
-                left,
-                top,
-                right: left + SIZE.0,
-                bottom: top + SIZE.1,
-            };
-            draw(pen, frame, node, points);
-        }
-    }))
+    Some(Figure::draw(
+        TITLE,
+        (&caption, bottom + 36.0),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            for (i, node) in shown.iter().enumerate() {
+                let (left, top) = (
+                    FIRST + PITCH.0 * (i % 2) as f64,
+                    top + PITCH.1 * (i / 2) as f64,
+                );
+                let frame = Frame {
+                    left,
+                    top,
+                    right: left + SIZE.0,
+                    bottom: top + SIZE.1,
+                };
+                draw(pen, frame, node, points);
+            }
+        },
+    ))
 }
 
 const SAMPLE: Look = Look {

@@ -10,7 +10,7 @@ use crate::report::number::{counted, grouped};
 use crate::report::palette::{INK, Look, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title_and_caption};
+use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, text_width};
 use crate::study::records::{MedianRecord, Summary};
 
 const TITLE: &str = "Does the cheapest plane lie between the medians, and do they cost the same?";
@@ -42,8 +42,7 @@ pub fn figure(rows: &[MedianRecord], summary: &Summary) -> Figure {
     let top = 56.0 + LEGEND_LEADING * (lines - 1) as f64;
     let bottom = top + DOWN;
     let height = bottom + 36.0 + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, bottom + 36.0);
+    Figure::draw(TITLE, (&caption, bottom + 36.0), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         let frame = |left: f64, right: f64| Frame {
             left,

@@ -15,9 +15,7 @@ use crate::report::number::significant;
 use crate::report::palette::{GRID, INK, Look, MUTED, SKY, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::provenance;
-use crate::report::text::{
-    LEADING, MEDIUM, SMALL, capitalised, caption_lines, fit, text_width, title_and_caption,
-};
+use crate::report::text::{LEADING, MEDIUM, SMALL, capitalised, caption_lines, fit, text_width};
 
 /// Height of the row of a scene, and of one strategy within a row of averages.
 const ROW: f64 = 8.6;
@@ -92,40 +90,45 @@ pub fn figure(part: &Part, measure: Measure, quick: bool) -> Option<Figure> {
     let bottom = rows.end();
     let baseline = bottom + 36.0;
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(title, WIDTH, height, |pen| {
-        title_and_caption(pen, title, LEFT, &caption, baseline);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        let left = LEFT + widest + 6.0;
-        let right = WIDTH - LEFT - 4.0;
-        label_rows(pen, &rows, &names, left - 5.0);
-        label_groups(pen, part, &rows, (LEFT, right));
-        let frame = |left, right| Frame {
-            left,
-            top: rows.top,
-            right,
-            bottom,
-        };
-        let panels = if alike.is_empty() || others.is_empty() {
-            vec![("", series.iter().collect(), frame(left, right))]
-        } else {
-            let between = left + WIDE * (right - left - GAP);
-            vec![
-                (
-                    "(a) planes placed without cost",
-                    others,
-                    frame(left, between),
-                ),
-                (
-                    "(b) planes of least cost",
-                    alike,
-                    frame(between + GAP, right),
-                ),
-            ]
-        };
-        for (heading, series, frame) in panels {
-            draw(pen, &rows, &series, frame, measure).heading(heading, frame.left, 4.0);
-        }
-    }))
+    Some(Figure::draw(
+        title,
+        (&caption, baseline),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            let left = LEFT + widest + 6.0;
+            let right = WIDTH - LEFT - 4.0;
+            label_rows(pen, &rows, &names, left - 5.0);
+            label_groups(pen, part, &rows, (LEFT, right));
+            let frame = |left, right| Frame {
+                left,
+                top: rows.top,
+                right,
+                bottom,
+            };
+            let panels = if alike.is_empty() || others.is_empty() {
+                vec![("", series.iter().collect(), frame(left, right))]
+            } else {
+                let between = left + WIDE * (right - left - GAP);
+                vec![
+                    (
+                        "(a) planes placed without cost",
+                        others,
+                        frame(left, between),
+                    ),
+                    (
+                        "(b) planes of least cost",
+                        alike,
+                        frame(between + GAP, right),
+                    ),
+                ]
+            };
+            for (heading, series, frame) in panels {
+                draw(pen, &rows, &series, frame, measure).heading(heading, frame.left, 4.0);
+            }
+        },
+    ))
 }
 
 fn title(measure: Measure) -> &'static str {

@@ -12,7 +12,7 @@ use crate::report::number::counted;
 use crate::report::palette::INK;
 use crate::report::render::{self, Render};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, SMALL, caption_lines, fit, title_and_caption};
+use crate::report::text::{LEADING, SMALL, caption_lines, fit};
 use crate::report::{Bitmap, DOTS_PER_INCH, ReportError};
 use crate::study::records::{CellRecord, RayRecord, Summary, file_stem};
 
@@ -82,8 +82,7 @@ fn gallery(pictures: &[(&str, Bitmap)], summary: &Summary) -> Figure {
     );
     let caption = caption_lines(caption, WIDTH - 2.0 * LEFT, summary.quick);
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, baseline);
+    Figure::draw(TITLE, (&caption, baseline), WIDTH, height, |pen| {
         for (i, (scene, picture)) in pictures.iter().enumerate() {
             let left = LEFT + (side + GAP) * (i % columns) as f64;
             let top = TOP + (side + NAME) * (i / columns) as f64;

@@ -11,7 +11,7 @@ use crate::report::number::Z99;
 use crate::report::palette::{INK, Look, Marker, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, title_and_caption};
+use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit};
 
 /// Scenes side by side.
 pub const COLUMNS: usize = 4;
@@ -139,8 +139,7 @@ impl Drawn<'_> {
         let columns = self.scenes.len() as f64;
         let pitch = (WIDTH - LEFT - FIRST + GAP) / columns;
         let across = pitch - GAP;
-        Figure::draw(title, WIDTH, height, |pen| {
-            title_and_caption(pen, title, LEFT, &caption, bottom + 36.0);
+        Figure::draw(title, (&caption, bottom + 36.0), WIDTH, height, |pen| {
             legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
             for (column, scene) in self.scenes.iter().enumerate() {
                 let left = FIRST + pitch * column as f64;

@@ -12,9 +12,7 @@ use crate::report::palette::{INK, Look, MUTED, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::{constants, distinct};
 use crate::report::strategies::averages::family;
-use crate::report::text::{
-    LEADING, MEDIUM, SMALL, caption_lines, fit, text_width, title_and_caption,
-};
+use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, text_width};
 use crate::study::records::{Summary, WorkRecord};
 
 const TITLE: &str = "Do surface areas tell what rays cost that are not the metric's own?";
@@ -62,8 +60,7 @@ fn figure(run: &CostVsWork, sets: &[&str], summary: &Summary) -> Figure {
     let (low, high) = extent(costs.filter(|&cost| cost > 0.0)).unwrap_or((1.0, 10.0));
     let room = (high / low).powf(0.04).max(1.1);
     let ends = [low / room, high * room];
-    Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, baseline);
+    Figure::draw(TITLE, (&caption, baseline), WIDTH, height, |pen| {
         legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
         for (number, rays) in sets.iter().enumerate() {
             let (column, row) = (number % COLUMNS, number / COLUMNS);

@@ -12,7 +12,7 @@ use crate::report::legend::{LEGEND_LEADING, legend, rows_of};
 use crate::report::number::fixed;
 use crate::report::palette::{INK, MUTED, SKY, faded};
 use crate::report::panel::{Frame, Panel};
-use crate::report::text::{LEADING, SMALL, caption_lines, title_and_caption};
+use crate::report::text::{LEADING, SMALL, caption_lines};
 use crate::study::records::{PredictionRecord, Summary};
 
 const TITLE: &str = "Can the time of a ray be predicted from what it does?";
@@ -55,20 +55,25 @@ pub fn predicted(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let bottom = top + SIDE;
     let baseline = bottom + 36.0;
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, baseline);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        for (number, prediction) in PREDICTIONS.into_iter().enumerate() {
-            let left = FIRST + number as f64 * (SIDE + ACROSS);
-            let frame = Frame {
-                left,
-                top,
-                right: left + SIDE,
-                bottom,
-            };
-            panel(pen, run, prediction, frame, ends, number == 0);
-        }
-    }))
+    Some(Figure::draw(
+        TITLE,
+        (&caption, baseline),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            for (number, prediction) in PREDICTIONS.into_iter().enumerate() {
+                let left = FIRST + number as f64 * (SIDE + ACROSS);
+                let frame = Frame {
+                    left,
+                    top,
+                    right: left + SIDE,
+                    bottom,
+                };
+                panel(pen, run, prediction, frame, ends, number == 0);
+            }
+        },
+    ))
 }
 
 fn panel(

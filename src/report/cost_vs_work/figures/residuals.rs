@@ -12,7 +12,7 @@ use crate::report::legend::{LEGEND_LEADING, legend, rows_of};
 use crate::report::palette::{INK, SKY, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, text_width, title_and_caption};
+use crate::report::text::{LEADING, MEDIUM, caption_lines, fit, text_width};
 use crate::study::records::{PredictionRecord, Summary};
 
 const TITLE: &str = "Where is the predicted time of a ray wrong?";
@@ -58,37 +58,42 @@ pub fn residuals(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let bottom = rows.top + rows.pitch() * rows.groups.len() as f64;
     let baseline = bottom + 36.0;
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
-    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, baseline);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        for (number, name) in names.iter().enumerate() {
-            let middle = rows.top + rows.pitch() * (number as f64 + 0.5);
-            let right = (HPos::Right, VPos::Center);
-            pen.text(name, (left - 5.0, middle), MEDIUM, INK, right);
-        }
-        let wide = 0.5 * (WIDTH - LEFT - 6.0 - left - GAP);
-        let frame = |left: f64| Frame {
-            left,
-            top: rows.top,
-            right: left + wide,
-            bottom,
-        };
-        let panels: [(String, Frame, Predicted); 2] = [
-            (
-                format!("(a) counted n{SUB}K, n{SUB}t"),
-                frame(left),
-                |row| row.two_ns,
-            ),
-            (
-                "(b) chosen terms".to_owned(),
-                frame(left + wide + GAP),
-                |row| row.chosen_ns,
-            ),
-        ];
-        for (heading, frame, predicted) in panels {
-            panel(pen, run, &rows, frame, ends, predicted).heading(&heading, frame.left, 4.0);
-        }
-    }))
+    Some(Figure::draw(
+        TITLE,
+        (&caption, baseline),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            for (number, name) in names.iter().enumerate() {
+                let middle = rows.top + rows.pitch() * (number as f64 + 0.5);
+                let right = (HPos::Right, VPos::Center);
+                pen.text(name, (left - 5.0, middle), MEDIUM, INK, right);
+            }
+            let wide = 0.5 * (WIDTH - LEFT - 6.0 - left - GAP);
+            let frame = |left: f64| Frame {
+                left,
+                top: rows.top,
+                right: left + wide,
+                bottom,
+            };
+            let panels: [(String, Frame, Predicted); 2] = [
+                (
+                    format!("(a) counted n{SUB}K, n{SUB}t"),
+                    frame(left),
+                    |row| row.two_ns,
+                ),
+                (
+                    "(b) chosen terms".to_owned(),
+                    frame(left + wide + GAP),
+                    |row| row.chosen_ns,
+                ),
+            ];
+            for (heading, frame, predicted) in panels {
+                panel(pen, run, &rows, frame, ends, predicted).heading(&heading, frame.left, 4.0);
+            }
+        },
+    ))
 }
 
 /// Where a set of rays of a group of scenes stands.

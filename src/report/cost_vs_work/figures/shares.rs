@@ -15,9 +15,7 @@ use crate::report::number::{fixed, significant};
 use crate::report::palette::{GRID, INK, Look, faded};
 use crate::report::panel::{Frame, Panel};
 use crate::report::series::distinct;
-use crate::report::text::{
-    LEADING, MEDIUM, SMALL, caption_lines, fit, text_width, title_and_caption,
-};
+use crate::report::text::{LEADING, MEDIUM, SMALL, caption_lines, fit, text_width};
 use crate::study::records::Summary;
 
 const TITLE: &str = "Where does the time of a ray go?";
@@ -57,49 +55,54 @@ pub fn shares(run: &CostVsWork, summary: &Summary) -> Option<Figure> {
     let baseline = bottom + 36.0;
     let height = baseline + LEADING * (caption.len() - 1) as f64 + 6.0;
     let right = WIDTH - LEFT - TIMES;
-    Some(Figure::draw(TITLE, WIDTH, height, |pen| {
-        title_and_caption(pen, TITLE, LEFT, &caption, baseline);
-        legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
-        let frame = Frame {
-            left,
-            top,
-            right,
-            bottom,
-        };
-        let y = Axis {
-            ticks: Vec::new(),
-            ..Axis::linear("", -(parts.sets.len() as f64), 0.0, 1)
-        };
-        let x = Axis::linear("share of the predicted time, per cent", 0.0, 100.0, 5);
-        let mut panel = Panel::new(pen, frame, x, y);
-        for (i, (set, name)) in parts.sets.iter().zip(&names).enumerate() {
-            let middle = top + ROW * (i as f64 + 0.5);
-            let beside = (HPos::Right, VPos::Center);
-            pen.text(name, (left - 5.0, middle), MEDIUM, INK, beside);
-            let half = 0.5 * BAR / ROW;
-            let at = -(i as f64 + 0.5);
-            let mut from = 0.0;
-            for (number, share) in parts.of_set(run, set).into_iter().enumerate() {
-                let (percent, colour) = (100.0 * share, parts.colour(number));
-                let to = from + percent;
-                panel.rectangle((from, at - half), (to, at + half), colour);
-                let label = fixed(percent, 0);
-                let wide = (right - left) * percent / 100.0;
-                if wide > text_width(&label, SMALL) + 4.0 {
-                    let centre = left + (right - left) * (0.5 * (from + to)) / 100.0;
-                    let on_it = (HPos::Center, VPos::Center);
-                    pen.text(&label, (centre, middle), SMALL, ink_on(colour), on_it);
+    Some(Figure::draw(
+        TITLE,
+        (&caption, baseline),
+        WIDTH,
+        height,
+        |pen| {
+            legend(pen, (LEFT, WIDTH - LEFT), 31.0, &keys);
+            let frame = Frame {
+                left,
+                top,
+                right,
+                bottom,
+            };
+            let y = Axis {
+                ticks: Vec::new(),
+                ..Axis::linear("", -(parts.sets.len() as f64), 0.0, 1)
+            };
+            let x = Axis::linear("share of the predicted time, per cent", 0.0, 100.0, 5);
+            let mut panel = Panel::new(pen, frame, x, y);
+            for (i, (set, name)) in parts.sets.iter().zip(&names).enumerate() {
+                let middle = top + ROW * (i as f64 + 0.5);
+                let beside = (HPos::Right, VPos::Center);
+                pen.text(name, (left - 5.0, middle), MEDIUM, INK, beside);
+                let half = 0.5 * BAR / ROW;
+                let at = -(i as f64 + 0.5);
+                let mut from = 0.0;
+                for (number, share) in parts.of_set(run, set).into_iter().enumerate() {
+                    let (percent, colour) = (100.0 * share, parts.colour(number));
+                    let to = from + percent;
+                    panel.rectangle((from, at - half), (to, at + half), colour);
+                    let label = fixed(percent, 0);
+                    let wide = (right - left) * percent / 100.0;
+                    if wide > text_width(&label, SMALL) + 4.0 {
+                        let centre = left + (right - left) * (0.5 * (from + to)) / 100.0;
+                        let on_it = (HPos::Center, VPos::Center);
+                        pen.text(&label, (centre, middle), SMALL, ink_on(colour), on_it);
+                    }
+                    from = to;
                 }
-                from = to;
+                let own = run.predictions.iter().filter(|row| row.rays == *set);
+                if let Some(ns) = median(own.map(|row| row.measured_ns)) {
+                    let text = format!("{} ns a ray", significant(ns, 3));
+                    let behind = (HPos::Left, VPos::Center);
+                    pen.text(&text, (right + 6.0, middle), SMALL, INK, behind);
+                }
             }
-            let own = run.predictions.iter().filter(|row| row.rays == *set);
-            if let Some(ns) = median(own.map(|row| row.measured_ns)) {
-                let text = format!("{} ns a ray", significant(ns, 3));
-                let behind = (HPos::Left, VPos::Center);
-                pen.text(&text, (right + 6.0, middle), SMALL, INK, behind);
-            }
-        }
-    }))
+        },
+    ))
 }
 
 /// Black or white, whichever stands out.

@@ -1,0 +1,82 @@
+//! The figures, each drawn into the page, its title and caption as text around it.
+
+use std::fs;
+use std::io::ErrorKind;
+use std::path::Path;
+
+use super::escape::{address, anchor, escape};
+use super::page::Section;
+use crate::report::bitmap::base64;
+use crate::report::{DOTS_PER_INCH, Figure, RENDER, ReportError, Run, svg};
+
+/// Bytes of a drawing above which the page has a PNG in its place.
+const LARGEST_DRAWING: usize = 2 << 20;
+
+/// Every figure of the run, and the picture of the scene where the folder of figures has one.
+pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
+    let (mut parts, mut body) = (Vec::new(), String::new());
+    for (name, figure) in run.figures()? {
+        let id = anchor("figure", &name);
+        body += &html(&id, &name, &figure, plots)?;
+        parts.push((id, figure.title));
+    }
+    if let Some(picture) = picture(plots)? {
+        let id = anchor("figure", RENDER);
+        let title = "The scene as traced";
+        let alt = "The scene as its camera sees it, and what the rays of every pixel cost";
+        let drawn = format!("<img alt=\"{alt}\" src=\"{}\">", embedded(&picture));
+        body += &framed(&id, RENDER, title, &drawn, "");
+        parts.push((id, title.to_owned()));
+    }
+    Ok(Section {
+        id: "figures",
+        title: "Figures",
+        parts,
+        body,
+    })
+}
+
+fn html(id: &str, name: &str, figure: &Figure, plots: &Path) -> Result<String, ReportError> {
+    let bare = figure.bare();
+    let mut drawn = svg::element_of_page(&bare);
+    if drawn.len() > LARGEST_DRAWING {
+        let png = bare.png(DOTS_PER_INCH).map_err(|source| ReportError::Png {
+            path: plots.join(format!("{name}.png")),
+            source,
+        })?;
+        let title = escape(&figure.title);
+        drawn = format!("<img alt=\"{title}\" src=\"{}\">", embedded(&png));
+    }
+    Ok(framed(id, name, &figure.title, &drawn, &figure.caption))
+}
+
+/// A picture between its title and its caption, with where it lies as files of its own.
+fn framed(id: &str, name: &str, title: &str, drawn: &str, caption: &str) -> String {
+    let files = ["svg", "png"].map(|extension| {
+        let file = address(&format!("{name}.{extension}"));
+        let shown = extension.to_uppercase();
+        format!("<a href=\"{file}\">{shown}</a>")
+    });
+    format!(
+        "<figure>\n<h3 id=\"{id}\">{}</h3>\n<div class=\"card\">{drawn}</div>\n\
+         <figcaption>{} <span class=\"files\">{}: {}</span></figcaption>\n</figure>\n",
+        escape(title),
+        escape(caption),
+        escape(name),
+        files.join(", ")
+    )
+}
+
+fn embedded(png: &[u8]) -> String {
+    format!("data:image/png;base64,{}", base64(png))
+}
+
+/// The picture that `validate scene` draws, if it is there.
+fn picture(plots: &Path) -> Result<Option<Vec<u8>>, ReportError> {
+    let path = plots.join(format!("{RENDER}.png"));
+    match fs::read(&path) {
+        Ok(bytes) => Ok(Some(bytes)),
+        Err(error) if error.kind() == ErrorKind::NotFound => Ok(None),
+        Err(source) => Err(ReportError::Read { path, source }),
+    }
+}
