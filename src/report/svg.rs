@@ -23,13 +23,12 @@ pub fn document(figure: &Figure) -> String {
     out
 }
 
-/// The figure as an element of a page, which sets its size and its ground. No part of it has a name, so that several can stand
-/// in one page.
-pub fn element_of_page(figure: &Figure) -> String {
+/// The figure as an element of a page, which sets its size and its ground; `label` is an attribute already. No part of it has a
+/// name, so that several can stand in one page.
+pub fn element_of_page(figure: &Figure, label: &str) -> String {
     let [width, height] = [figure.size.0, figure.size.1].map(|size| f64::from(size) * FINER);
-    let title = escape(&figure.title).replace('"', "&quot;");
     let mut out =
-        format!("<svg role=\"img\" aria-label=\"{title}\" viewBox=\"0 0 {width} {height}\">\n");
+        format!("<svg role=\"img\" aria-label=\"{label}\" viewBox=\"0 0 {width} {height}\">\n");
     drawing(&mut out, figure);
     out.push_str("</svg>\n");
     out

@@ -1,5 +1,7 @@
 //! Text from outside (names of scenes, paths, messages) as a page takes it.
 
+use crate::report::glyphs::SUB;
+
 /// The text as content or as a quoted attribute. Characters that HTML forbids become the sign for those that are unknown.
 pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -16,6 +18,23 @@ pub fn escape(text: &str) -> String {
         }
     }
     out
+}
+
+/// The words of a figure as content, subscripts set as such.
+pub fn with_subscripts(text: &str) -> String {
+    let mut pieces = text.split(SUB);
+    let mut out = escape(pieces.next().unwrap_or_default());
+    for piece in pieces {
+        let letter = piece.chars().next().map_or(0, char::len_utf8);
+        let (letter, rest) = piece.split_at(letter);
+        out += &format!("<sub>{}</sub>{}", escape(letter), escape(rest));
+    }
+    out
+}
+
+/// The words of a figure as an attribute, `n_K` for a subscript.
+pub fn without_subscripts(text: &str) -> String {
+    escape(&text.replace(SUB, "_"))
 }
 
 /// What follows the kind of a thing in the name of its anchor: letters, digits and hyphens.
@@ -48,6 +67,11 @@ mod tests {
         let safe =
             "&lt;script&gt;alert(&quot;1&quot; + &#39;2&#39;) &amp; more&lt;/script&gt;\u{fffd}";
         assert_eq!(escape(hostile), safe);
+        assert_eq!(
+            with_subscripts("c\u{e000}K<n\u{e000}<"),
+            "c<sub>K</sub>&lt;n<sub>&lt;</sub>"
+        );
+        assert_eq!(without_subscripts("c\u{e000}K<"), "c_K&lt;");
         assert_eq!(anchor("table", "a b\"<é"), "table-a-b----");
         assert_eq!(address("a b/c#d?é.csv"), "a%20b/c%23d%3F%C3%A9.csv");
     }

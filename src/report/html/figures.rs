@@ -4,9 +4,10 @@ use std::fs;
 use std::io::ErrorKind;
 use std::path::Path;
 
-use super::escape::{address, anchor, escape};
+use super::escape::{address, anchor, escape, with_subscripts, without_subscripts};
 use super::page::Section;
 use crate::report::bitmap::base64;
+use crate::report::glyphs::SUB;
 use crate::report::{DOTS_PER_INCH, Figure, RENDER, ReportError, Run, svg};
 
 /// Bytes of a drawing above which the page has a PNG in its place.
@@ -15,10 +16,24 @@ const LARGEST_DRAWING: usize = 2 << 20;
 /// Every figure of the run, and the picture of the scene where the folder of figures has one.
 pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
     let (mut parts, mut body) = (Vec::new(), String::new());
-    for (name, figure) in run.figures()? {
-        let id = anchor("figure", &name);
-        body += &html(&id, &name, &figure, plots)?;
-        parts.push((id, figure.title));
+    let figures = run.figures()?;
+    for (name, figure) in &figures {
+        let id = anchor("figure", name);
+        let alike = figures
+            .iter()
+            .filter(|(_, other)| other.title == figure.title);
+        let title = match alike.count() {
+            1 => figure.title.clone(),
+            _ => format!("{} ({name})", figure.title),
+        };
+        body += &framed(
+            &id,
+            name,
+            &title,
+            &drawn(name, figure, plots)?,
+            &figure.caption,
+        );
+        parts.push((id, title.replace(SUB, "_")));
     }
     if let Some(picture) = picture(plots)? {
         let id = anchor("figure", RENDER);
@@ -36,18 +51,19 @@ pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
     })
 }
 
-fn html(id: &str, name: &str, figure: &Figure, plots: &Path) -> Result<String, ReportError> {
+/// The figure as an element of the page: a drawing, or a PNG where that would be too large.
+fn drawn(name: &str, figure: &Figure, plots: &Path) -> Result<String, ReportError> {
     let bare = figure.bare();
-    let mut drawn = svg::element_of_page(&bare);
-    if drawn.len() > LARGEST_DRAWING {
-        let png = bare.png(DOTS_PER_INCH).map_err(|source| ReportError::Png {
-            path: plots.join(format!("{name}.png")),
-            source,
-        })?;
-        let title = escape(&figure.title);
-        drawn = format!("<img alt=\"{title}\" src=\"{}\">", embedded(&png));
+    let title = without_subscripts(&figure.title);
+    let drawn = svg::element_of_page(&bare, &title);
+    if drawn.len() <= LARGEST_DRAWING {
+        return Ok(drawn);
     }
-    Ok(framed(id, name, &figure.title, &drawn, &figure.caption))
+    let png = bare.png(DOTS_PER_INCH).map_err(|source| ReportError::Png {
+        path: plots.join(format!("{name}.png")),
+        source,
+    })?;
+    Ok(format!("<img alt=\"{title}\" src=\"{}\">", embedded(&png)))
 }
 
 /// A picture between its title and its caption, with where it lies as files of its own.
@@ -60,8 +76,8 @@ fn framed(id: &str, name: &str, title: &str, drawn: &str, caption: &str) -> Stri
     format!(
         "<figure>\n<h3 id=\"{id}\">{}</h3>\n<div class=\"card\">{drawn}</div>\n\
          <figcaption>{} <span class=\"files\">{}: {}</span></figcaption>\n</figure>\n",
-        escape(title),
-        escape(caption),
+        with_subscripts(title),
+        with_subscripts(caption),
         escape(name),
         files.join(", ")
     )

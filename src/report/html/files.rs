@@ -76,20 +76,20 @@ pub fn again(run: &Run, archived: bool) -> Section {
         .to_string_lossy();
     let mut body = format!(
         "<p>The same program, seed and scenes give the same data but for seconds, with any number of threads:</p>\n\
-         <pre tabindex=\"0\" aria-label=\"Command that repeats the run\">{}</pre>\n",
+         <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that repeats the run\">{}</pre>\n",
         escape(&run.summary.command)
     );
     if archived {
         body += &format!(
             "<p>To hand the run on, and to have all of it repeated and compared byte for byte:</p>\n\
-             <pre tabindex=\"0\" aria-label=\"Commands that archive and repeat the run\">validate archive data/{0}\n\
+             <pre tabindex=\"0\" role=\"region\" aria-label=\"Commands that archive and repeat the run\">validate archive data/{0}\n\
              validate verify archives/{0}.tar.gz --replay</pre>\n",
             escape(&name)
         );
     }
     body += &format!(
         "<p>This page alone, from the data:</p>\n\
-         <pre tabindex=\"0\" aria-label=\"Command that makes this page\">validate report data/{}</pre>\n",
+         <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that makes this page\">validate report data/{}</pre>\n",
         escape(&name)
     );
     Section {

@@ -63,7 +63,7 @@ pub fn parameters(run: &Run, asked: Option<&Asked>) -> Section {
         }
         body += &format!(
             "<h3 id=\"experiment\">The experiment’s text</h3>\n\
-             <pre tabindex=\"0\" aria-label=\"The experiment’s text\">{}</pre>\n",
+             <pre tabindex=\"0\" role=\"region\" aria-label=\"The experiment’s text\">{}</pre>\n",
             escape(&asked.text)
         );
     }

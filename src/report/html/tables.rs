@@ -9,8 +9,6 @@ use crate::report::table::{Align, Cell, Column, Table};
 
 /// Tables of more rows are folded.
 const OPEN: usize = 24;
-/// Tables of more columns are printed across.
-const NARROW: usize = 9;
 
 /// Every table of the run.
 pub fn section(run: &Run, place: &Place) -> Section {
@@ -18,13 +16,8 @@ pub fn section(run: &Run, place: &Place) -> Section {
     for (name, table) in run.tables() {
         let id = anchor("table", &name);
         let files = place.table(&name);
-        let across = if table.columns.len() > NARROW {
-            " class=\"across\""
-        } else {
-            ""
-        };
         body += &format!(
-            "<div{across}>\n<h3 id=\"{id}\">{}</h3>\n<p class=\"caption\">{}{files}</p>\n{}</div>\n",
+            "<h3 id=\"{id}\">{}</h3>\n<p class=\"caption\">{}{files}</p>\n{}",
             escape(&name),
             escape(&table.caption),
             folded(&name, &table)
