@@ -50,7 +50,8 @@ fn a_run_writes_data_tables_plots_and_a_summary() {
         .stdout(
             contains("Does it work?")
                 .and(contains("held    slope-within"))
-                .and(contains("sah")),
+                .and(contains("sah"))
+                .and(contains("report ./plots/e/report.html\n")),
         )
         .stderr("counting lines through 2 cells\n");
     for file in [
@@ -67,6 +68,7 @@ fn a_run_writes_data_tables_plots_and_a_summary() {
         "plots/e/figure3.png",
         "plots/e/slopes.svg",
         "plots/e/predicted-vs-measured.png",
+        "plots/e/report.html",
     ] {
         assert!(folder.path().join(file).is_file(), "{file}");
     }
@@ -279,6 +281,9 @@ fn runs_are_published_one_by_one() {
     assert!(!readme().contains("old"));
     assert!(stale.iter().all(|file| !file.exists()));
     assert!(root.join("plots/published/f/figure3.svg").is_file());
+    // The page is large, and quickly made again.
+    assert!(root.join("plots/f/report.html").is_file());
+    assert!(!root.join("plots/published/f/report.html").exists());
     // A benchmark has no summary.
     fs::create_dir_all(root.join("data/bench")).unwrap();
     // Each of its files is published by itself: the other one stays.

@@ -94,7 +94,7 @@ fn work_is_the_same_for_any_threads_and_after_a_stop() {
     for part in ["data/e/tables", "plots/e"] {
         fs::remove_dir_all(folder.path().join(part)).unwrap();
     }
-    for redo in ["tables", "plots"] {
+    for redo in ["tables", "plots", "report"] {
         let mut command = Command::cargo_bin("validate").unwrap();
         command.current_dir(folder.path()).args([redo, "data/e"]);
         command.assert().code(0);

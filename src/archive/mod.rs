@@ -61,10 +61,14 @@ pub use pack::{Packed, RunFolders, pack};
 pub use replay::{Compared, Difference, compare};
 pub use verify::{Fault, Verified, verify};
 
-/// Whether a file of a run, by its path below `data/RUN/`, holds times: the only files that differ from run to run.
+/// The page of a run, beside its figures: it tells where and how long the run was measured.
+const PAGE: &str = "report.html";
+
+/// Whether a file of a run, by its path below `data/RUN/` or `plots/RUN/`, holds times: the only files that differ from run to
+/// run.
 pub fn holds_times(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
-    name == TIMINGS || name.starts_with("times-") || name.ends_with(".times.json")
+    [TIMINGS, PAGE].contains(&name) || name.starts_with("times-") || name.ends_with(".times.json")
 }
 
 /// How much an archive may hold: no more is packed, and no more is read.
@@ -231,6 +235,7 @@ mod tests {
             "times-x.csv",
             "tables/times-y.md",
             "cells/0.times.json",
+            "report.html",
         ] {
             assert!(holds_times(path), "{path}");
         }

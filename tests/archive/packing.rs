@@ -51,6 +51,7 @@ fn the_same_runs_give_the_same_bytes() {
         "data/e/timings.csv",
         "data/e-quick/tables/cells.md",
         "plots/e-quick/figure3.png",
+        "plots/e-quick/report.html",
     ] {
         assert!(paths.contains(&format!("e-e-quick/{path}")), "{path}");
     }
