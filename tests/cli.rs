@@ -391,6 +391,7 @@ fn tables_and_plots_are_redone_from_data_alone() {
         .code(0);
     let plots = folder.path().join("plots");
     let before = contents(&plots);
+    assert!(before.contains_key("e/report.html"));
     fs::remove_dir_all(&plots).unwrap();
     fs::remove_dir_all(folder.path().join("data/e/cells")).unwrap();
     fs::remove_dir_all(folder.path().join("data/e/tables")).unwrap();
@@ -399,14 +400,19 @@ fn tables_and_plots_are_redone_from_data_alone() {
         .assert()
         .code(0)
         .stdout(contains("figure3.svg"));
-    assert!(before == contents(&plots));
     validate(folder.path())
         .args(["tables", "data/e"])
         .assert()
         .code(0)
         .stdout(contains("cells.tex"));
+    validate(folder.path())
+        .args(["report", "data/e"])
+        .assert()
+        .code(0)
+        .stdout("plots/e/report.html\n");
+    assert!(before == contents(&plots));
     // Elsewhere, if asked for.
-    for command in ["plots", "tables"] {
+    for command in ["plots", "tables", "report"] {
         validate(folder.path())
             .args([command, "data/e", "--out", "x"])
             .assert()
