@@ -18,8 +18,9 @@ pub(super) fn text(name: &str, plans: &[Plan]) -> String {
         let question = plan.question.replace('|', "\\|");
         writeln!(text, "| {} | {question} | `{}` |", plan.name, plan.command).expect("in memory");
     }
-    text += "\n`data/RUN/README.md` explains every file and column of a run, `plots/RUN/` has its figures, `experiments/RUN.toml`\n\
-             what was asked for and with which options, `environment.json` program, compiler and the machine that packed this\n\
+    text += "\n`data/RUN/README.md` explains every file and column of a run, `plots/RUN/` has its figures and\n\
+             `report.html`, all of it on one page, `experiments/RUN.toml` what was asked for and with which options,\n\
+             `environment.json` program, compiler and the machine that packed this\n\
              (not always the one that ran), `Cargo.lock` the dependencies.\n\n## To check the files\n\n```sh\n";
     text += "sha256sum -c manifest-sha256.txt      # in this folder\n";
     writeln!(text, "validate verify {name}.tar.gz").expect("in memory");

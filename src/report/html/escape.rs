@@ -72,7 +72,7 @@ mod tests {
             "c<sub>K</sub>&lt;n<sub>&lt;</sub>"
         );
         assert_eq!(without_subscripts("c\u{e000}K<"), "c_K&lt;");
-        assert_eq!(anchor("table", "a b\"<é"), "table-a-b----");
+        assert_eq!(anchor("table", "a b\"<é"), "table-a-b---");
         assert_eq!(address("a b/c#d?é.csv"), "a%20b/c%23d%3F%C3%A9.csv");
     }
 }
