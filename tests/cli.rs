@@ -329,7 +329,7 @@ fn pages_are_checked_and_renewed() {
     );
     check()
         .code(0)
-        .stdout("1 quotations in 2 pages are up to date\n");
+        .stdout("up to date: all quotations (1 in README.md and docs/)\n");
     // What is not there to be quoted is out of date; what cannot be told is an error.
     write(
         "docs/e.md",

@@ -14,7 +14,7 @@ pub const RUN: &str = "Examples:
   validate run experiments/strategies.toml            Havran's table; resumes what was stopped
   validate run experiments/cost.toml --dry-run        what it would measure
   validate run experiments/validate.toml --quick      its short form, into data/validate-quick
-  validate run experiments/validate.toml --error 0.1% --out /tmp/exact
+  validate run experiments/validate.toml --error 0.1% --out exact
   validate run experiments/strategies.toml --shard 1/2  half of it, into shards/strategies/1-of-2";
 
 /// Of `merge`.

@@ -52,7 +52,7 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
             [] => "published nothing new".into(),
             _ => format!("published {}", names.join(", ")),
         };
-        print(&format!("{what}; {} are up to date\n", counted(&pages)))?;
+        print(&format!("{what}; up to date: {}\n", counted(&pages)))?;
     }
     Ok(true)
 }
@@ -73,7 +73,7 @@ pub fn check_pages(root: &Path) -> Result<bool> {
         }
     }
     if wrong.is_empty() {
-        print(&format!("{} are up to date\n", counted(&pages)))?;
+        print(&format!("up to date: {}\n", counted(&pages)))?;
         return Ok(true);
     }
     print(&wrong)?;
@@ -82,7 +82,7 @@ pub fn check_pages(root: &Path) -> Result<bool> {
 
 fn counted(pages: &[(PathBuf, Spliced)]) -> String {
     let marks: usize = pages.iter().map(|(_, page)| page.marks).sum();
-    format!("{marks} quotations in {} pages", pages.len())
+    format!("all quotations ({marks} in README.md and docs/)")
 }
 
 /// README.md and every page below docs, relative to `root`, with what belongs between their marks.
