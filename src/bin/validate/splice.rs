@@ -90,10 +90,18 @@ fn next_mark(text: &str) -> Option<(usize, &'static str, &'static str)> {
     found.into_iter().flatten().min()
 }
 
-/// The cells of a line of a Markdown table, if it is one.
+/// The cells of a line of a Markdown table, if it is one. `\|` is no border.
 fn cells(line: &str) -> Option<Vec<&str>> {
     let inner = line.strip_prefix('|')?.strip_suffix('|')?;
-    Some(inner.split('|').map(str::trim).collect())
+    let borders = inner.match_indices('|').map(|(at, _)| at);
+    let borders = borders.filter(|&at| !inner[..at].ends_with('\\'));
+    let mut begin = 0;
+    let cells = borders.chain([inner.len()]).map(|end| {
+        let cell = &inner[begin..end];
+        begin = end + 1;
+        cell.trim()
+    });
+    Some(cells.collect())
 }
 
 /// Only the named columns of the tables in a text, or all of it if none is named.
@@ -210,6 +218,12 @@ mod tests {
         assert!(chosen.contains("caption.\n\n| c | a |\n| :-- | :-- |\n|  | **g** |\n| u | x |\n"));
         let error = page("<!-- BEGIN t.md :: d -->\n<!-- END -->").expect_err("no such column");
         assert!(format!("{error:#}").contains("no column 'd'; there are: a, b, c"));
+    }
+
+    #[test]
+    fn escaped_bars_are_no_borders() {
+        assert_eq!(cells(r"| max \|z\| | b |"), Some(vec![r"max \|z\|", "b"]));
+        assert_eq!(cells("no table"), None);
     }
 
     #[test]
