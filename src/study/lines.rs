@@ -1,6 +1,6 @@
 //! How many lines a cell counts.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use super::needed::TRIAL;
 use super::plan::{Wrong, wrong_unless};
@@ -16,7 +16,7 @@ use super::plan::{Wrong, wrong_unless};
 /// assert!(LineRule::for_error(0.01, 1 << 20, 1024).is_err());
 /// # Ok::<(), String>(())
 /// ```
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct LineRule {
     /// Wanted half-width of the slope's 99 % interval around 1, with room for chance: see [`choose`](Self::choose).

@@ -6,14 +6,15 @@
 mod error;
 mod once;
 mod overrides;
+mod resolved;
 mod table;
 
 use std::collections::HashMap;
 use std::fs;
 use std::path::Path;
 
-use serde::Deserialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use toml::Spanned;
 use toml::de::{DeTable, Deserializer};
 
@@ -80,7 +81,8 @@ pub struct Plan {
 }
 
 /// The kinds of experiment there are.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[serde(tag = "kind", rename_all = "kebab-case")]
 pub enum Kind {
     /// Hits against surface area, for every node of every tree.
     HitsVsArea(HitsVsArea),

@@ -97,6 +97,16 @@ impl Record {
         format!("{}\n\n{MARK}{tail}", self.text.trim_end_matches('\n'))
     }
 
+    /// The full name that a scene of the experiment had in the recorded run, if it was named without its size.
+    pub fn full_name(&self, spec: &str) -> Option<&str> {
+        let sized = |name: &&String| name.strip_prefix(spec).is_some_and(|s| s.starts_with(':'));
+        let mut names = self.scenes.keys().filter(sized);
+        match (self.scenes.contains_key(spec), names.next(), names.next()) {
+            (false, Some(name), None) => Some(name),
+            _ => None,
+        }
+    }
+
     /// Whether scenes are those the recorded run had; the message says what else they are. Scenes it did not have are no
     /// matter, nor is anything where no run is recorded.
     pub fn check_scenes(&self, scenes: &[Scene]) -> Result<(), String> {

@@ -11,7 +11,7 @@ use std::time::Instant;
 use rand::SeedableRng;
 use rand::rngs::ChaCha8Rng;
 use rand::seq::SliceRandom;
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geom::Cast;
 use crate::kd::{Ask, NoProbe, Rules, Stack, Tree};
@@ -34,7 +34,7 @@ const FEWEST: usize = 128;
 const DISTURBED: f64 = 0.03;
 
 /// How seconds are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timing {
     /// Times that every chunk of rays is traced; even, so that there are two halves.

@@ -1,6 +1,6 @@
 //! What an `assumptions` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{Ask, Rules, StopRule, Strategy};
 use crate::rays::{LineLaw, Source};
@@ -10,7 +10,7 @@ use crate::study::plan::{Wrong, each_once, wrong_unless};
 use crate::study::ray_sets::{Number, RaysOf};
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Assumptions {
     /// Strategies whose trees are traced and ranked.
@@ -35,7 +35,7 @@ pub struct Assumptions {
 }
 
 /// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Chance that any of the simultaneous intervals of a correct run misses its prediction; likewise of the exact checks.

@@ -1,6 +1,6 @@
 //! What a `cost-vs-work` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
@@ -10,7 +10,7 @@ use crate::study::ray_sets::{Number, RaysOf};
 use crate::study::timing::halves;
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CostVsWork {
     /// Strategies.
@@ -39,7 +39,7 @@ pub struct CostVsWork {
 }
 
 /// How seconds are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timing {
     /// Rays of each set that are timed, and whose steps are counted.
@@ -51,7 +51,7 @@ pub struct Timing {
 }
 
 /// How constants are fitted.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Calibration {
     /// Draws of the bootstrap over groups of scenes.
@@ -59,7 +59,7 @@ pub struct Calibration {
 }
 
 /// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Chance that any of the simultaneous intervals of a correct run misses its prediction.

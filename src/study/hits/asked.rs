@@ -1,6 +1,6 @@
 //! What a `hits-vs-area` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
@@ -10,7 +10,7 @@ use crate::study::plan::{Wrong, each_once, wrong_unless};
 use super::work::Work;
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct HitsVsArea {
     /// Strategies.
@@ -36,7 +36,7 @@ pub struct HitsVsArea {
 }
 
 /// The cell a figure shows.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Figure {
     /// Its scene, one of the experiment's.
@@ -46,7 +46,7 @@ pub struct Figure {
 }
 
 /// Negative controls: every law of lines there is, exact or not, goes through the sampler checks.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Controls {
     /// Lines of each law.
@@ -58,7 +58,7 @@ pub struct Controls {
 }
 
 /// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Every 99 % interval of a slope lies within 1 +- this.

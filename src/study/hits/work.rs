@@ -1,6 +1,6 @@
 //! Sets of rays that are traced through every tree, beside the lines that are counted.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geom::Cast;
 use crate::kd::{Ask, Rules};
@@ -10,7 +10,7 @@ use crate::study::ray_sets::{Number, Rays, RaysOf, gather};
 use crate::study::{guess, identity};
 
 /// Which rays: the section `[work]`.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Work {
     /// Sets of rays by name; those of a picture are met by scenes that have a look.

@@ -1,6 +1,6 @@
 //! What a `speed-vs-error` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{StopRule, Strategy};
 use crate::scene::Scene;
@@ -11,7 +11,7 @@ use super::check::LONGER;
 pub use super::method::Method;
 
 /// The keys of this kind. Each part is measured where its section is there.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SpeedVsError {
     /// Strategy of the trees, but for the plane searches'.
@@ -32,7 +32,7 @@ pub struct SpeedVsError {
 }
 
 /// Samplers of lines.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Samplers {
     /// Scenes, of the experiment's.
@@ -54,7 +54,7 @@ pub struct Samplers {
 }
 
 /// Kernels.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Precision {
     /// Scenes, of the experiment's.
@@ -70,7 +70,7 @@ pub struct Precision {
 }
 
 /// Plane searches.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Planes {
     /// Scenes, of the experiment's.
@@ -84,7 +84,7 @@ pub struct Planes {
 }
 
 /// Runs of one scene by different seeds.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Coverage {
     /// Its scene, of the experiment's.
@@ -102,7 +102,7 @@ pub struct Coverage {
 }
 
 /// Bounds written before the run that they judge. Kernels and coverage have theirs by nature.
-#[derive(Clone, Debug, Default, PartialEq, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Of scrambled Sobol' lines.
@@ -112,7 +112,7 @@ pub struct Expect {
 }
 
 /// What scrambled Sobol' lines are to reach at the most lines, on these scenes.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SobolBounds {
     /// The scenes, of the samplers'; on others it is told, not judged.
@@ -126,7 +126,7 @@ pub struct SobolBounds {
 }
 
 /// A plane search that is to be nearly as good as the exact one.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct PlaneBound {
     /// The strategy.

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::Ask;
 use crate::rays::{LineLaw, Sampler, Source};
@@ -11,7 +11,7 @@ use crate::study::ray_sets::RaysOf;
 use super::asked::Samplers;
 
 /// A way to estimate by lines.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, Deserialize)]
 #[serde(rename_all = "kebab-case")]
 pub enum Method {
     /// Independent lines.

@@ -2,14 +2,14 @@
 
 use std::fmt;
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::StopRule;
 use crate::kd::stop::MAX_FULL_DEPTH;
 use crate::study::plan::{Wrong, none_twice, wrong_unless};
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SplitCost {
     /// The stop rule of the trees, of strategy `sah`, whose inner nodes are looked at.
@@ -25,7 +25,7 @@ pub struct SplitCost {
 }
 
 /// A node whose split cost is drawn.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CurveOf {
     /// Its scene, one of the experiment's.
@@ -41,7 +41,7 @@ impl fmt::Display for CurveOf {
 }
 
 /// An octree.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct OctreeOf {
     /// Most objects of a cell that is not halved.
@@ -53,7 +53,7 @@ pub struct OctreeOf {
 }
 
 /// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Both medians cost the same, up to this share, where theory says so.

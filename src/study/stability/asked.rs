@@ -1,6 +1,6 @@
 //! What a `stability` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{StopRule, Strategy};
 use crate::study::kernel::Kernel;
@@ -8,7 +8,7 @@ use crate::study::plan::{Wrong, each_once, none_twice, wrong_unless};
 
 /// The keys of this kind. The catalogue of hard cases goes through every strategy and kernel; `scenes` are those of the random
 /// cases and of the metamorphic checks.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Stability {
     /// Strategies.

@@ -1,6 +1,6 @@
 //! What a `strategies` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{StopRule, Strategy};
 use crate::study::LineRule;
@@ -13,7 +13,7 @@ use crate::tracer::PIXELS;
 use super::slices::SliceOf;
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Strategies {
     /// Strategies.
@@ -43,7 +43,7 @@ const MOST_PIXELS: u32 = 2048;
 const MOST_CHECKED: u32 = 1_000_000;
 
 /// Bounds written before the run that they judge.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Chance that any of the simultaneous intervals of a correct run misses its prediction.

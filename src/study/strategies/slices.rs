@@ -1,6 +1,6 @@
 //! A slice through one scene: the cells of every strategy's tree, and the outlines of the objects.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::geom::Axis;
 use crate::kd::slice::{SliceCell, across, slice};
@@ -15,7 +15,7 @@ use crate::study::{AXES, Plan, Watcher};
 use super::Strategies;
 
 /// A plane across an axis of one scene.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SliceOf {
     /// Its scene, one of the experiment's.
@@ -27,7 +27,7 @@ pub struct SliceOf {
 }
 
 /// An axis by its name.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum AxisName {
     /// Axis 0.

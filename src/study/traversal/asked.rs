@@ -1,6 +1,6 @@
 //! What a `traversal` experiment asks for besides its scenes.
 
-use serde::Deserialize;
+use serde::{Deserialize, Serialize};
 
 use crate::kd::{Ask, StopRule, Strategy};
 use crate::study::plan::{Wrong, wrong_unless};
@@ -8,7 +8,7 @@ use crate::study::ray_sets::RaysOf;
 use crate::study::timing::halves;
 
 /// The keys of this kind.
-#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Traversal {
     /// Strategy of the trees.
@@ -28,7 +28,7 @@ pub struct Traversal {
 }
 
 /// How seconds are measured.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Timing {
     /// Rays of each set that are timed.
@@ -42,7 +42,7 @@ pub struct Timing {
 }
 
 /// Bounds written before the run that they judge. Equal hits, equal leaves and fewer inner nodes are expected by nature.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Share of the rays of each source that each walk without a stack gives up, at most; rays that meet a leaf too thin for its
@@ -51,7 +51,7 @@ pub struct Expect {
 }
 
 /// A share for each precision.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct Shares {
     /// In double precision.
