@@ -1,33 +1,34 @@
-//! What made an archive: facts of the program, the compiler and the machine that packs it, which need not be the one that ran;
-//! no name of a host or a user, no path.
+//! What measured, and what made the archive: facts of programs, compilers and machines; no name of a host or a user, no path.
 
+use std::collections::BTreeMap;
 use std::thread::available_parallelism;
 
 use serde::Serialize;
 
+use super::gather::Run;
+use crate::study::machine::machine;
+use crate::study::records::{Machine, MachineTimes};
+
 /// `environment.json`.
 #[derive(Serialize)]
-struct Environment {
-    version: &'static str,
-    revision: &'static str,
-    rustc: &'static str,
-    target: &'static str,
-    os: &'static str,
-    processor: Option<String>,
-    /// That the packing machine runs at once; how many a run used is in its `timings.csv`.
-    threads: Option<usize>,
+struct Environment<'a> {
+    /// What measured each run, and how long.
+    measured: BTreeMap<&'a str, &'a [MachineTimes]>,
+    /// What made the archive, with the threads this machine runs at once.
+    packed: Machine,
 }
 
 /// The bytes of `environment.json`.
-pub(super) fn json() -> Vec<u8> {
+pub(super) fn json(runs: &[Run]) -> Vec<u8> {
+    let measured = runs.iter().map(|run| (run.name(), &*run.times.machines));
+    let machine = machine();
     let environment = Environment {
-        version: env!("CARGO_PKG_VERSION"),
-        revision: crate::REVISION,
-        rustc: env!("SAHLAB_RUSTC"),
-        target: env!("SAHLAB_TARGET"),
-        os: std::env::consts::OS,
-        processor: crate::study::machine::processor(),
-        threads: available_parallelism().ok().map(usize::from),
+        measured: measured.collect(),
+        packed: Machine {
+            // Not those of `--threads`: packing takes one.
+            threads: available_parallelism().map_or(machine.threads, |n| n.get() as u64),
+            ..machine
+        },
     };
     let mut json = serde_json::to_vec_pretty(&environment).expect("plain data");
     json.push(b'\n');

@@ -9,10 +9,16 @@ use super::{Files, is_plain};
 pub(super) fn write(files: &Files) -> String {
     let mut text = String::new();
     for (path, facts) in files {
-        for byte in facts.sha256 {
-            write!(text, "{byte:02x}").expect("writing to memory");
-        }
-        writeln!(text, "  {path}").expect("writing to memory");
+        writeln!(text, "{}  {path}", digits(&facts.sha256)).expect("writing to memory");
+    }
+    text
+}
+
+/// A digest as text.
+pub(super) fn digits(sha256: &[u8; 32]) -> String {
+    let mut text = String::with_capacity(64);
+    for byte in sha256 {
+        write!(text, "{byte:02x}").expect("writing to memory");
     }
     text
 }
@@ -40,7 +46,8 @@ pub(super) fn read(bytes: &[u8]) -> Result<BTreeMap<String, [u8; 32]>, String> {
     Ok(files)
 }
 
-fn digest(digits: &str) -> Option<[u8; 32]> {
+/// The digest that a text says, in small letters.
+pub(super) fn digest(digits: &str) -> Option<[u8; 32]> {
     let lower = |b: &u8| matches!(b, b'0'..=b'9' | b'a'..=b'f');
     if digits.len() != 64 || !digits.as_bytes().iter().all(lower) {
         return None;

@@ -1,15 +1,22 @@
 //! Archives of finished runs: one `.tar.gz` from which anyone can check the files and repeat the runs.
 //!
 //! [`pack`] writes one, the same bytes for the same runs; [`verify`] reads one without trusting it; [`compare`] holds a
-//! repeated run against it. In an archive, under one folder `NAME/`:
+//! repeated run against it. An archive is a bag (BagIt 1.0) whose payload is an RO-Crate (1.1, with Process Run Crate 0.5), laid
+//! out as a folder in which `validate` has run. Under one folder `NAME/`:
 //!
 //! ```text
-//! manifest-sha256.txt    digest of every other file, as `sha256sum -c` reads it
-//! README.md              what this is, how to check and how to repeat it
-//! environment.json       program, compiler and the machine that packed it
-//! Cargo.lock             the dependencies
-//! experiments/RUN.toml   what to run again
-//! data/RUN/  plots/RUN/  what came out
+//! bagit.txt  bag-info.txt       that it is a bag; bytes and number of the files below data/
+//! manifest-sha256.txt           digests of the files below data/, as `sha256sum -c` reads them
+//! tagmanifest-sha256.txt        digests of the three above
+//! data/ro-crate-metadata.json   every file and run, for machines
+//! data/README.md  CLAIMS.md     what this is, how to check and how to repeat it; what was found
+//! data/CITATION.cff  LICENSE-*  how to cite it, what may be done with it
+//! data/environment.json         programs, compilers and machines that measured and that packed it
+//! data/Cargo.lock               the dependencies
+//! data/replay.json              digests of the files that a repeated run must reproduce
+//! data/experiments/RUN.toml     what to run again
+//! data/resolved/RUN.toml        the same with every default written out
+//! data/data/RUN/  plots/RUN/    what came out
 //! ```
 //!
 //! A run from its experiment to an archive, and what becomes of an archive that was damaged:
@@ -39,11 +46,20 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod alike;
+mod bag;
+mod claims;
+mod date;
 mod environment;
+mod gather;
+mod gzip;
+mod identifier;
 mod manifest;
+mod metadata;
 mod pack;
 mod readme;
 mod replay;
+mod reproduced;
 mod verify;
 mod walk;
 
@@ -55,9 +71,10 @@ use std::path::PathBuf;
 use sha2::{Digest, Sha256};
 
 use crate::study::plan::is_folder_name;
-use crate::study::store::{EXPERIMENT, TIMINGS};
+use crate::study::store::TIMINGS;
 
-pub use pack::{Packed, RunFolders, pack};
+pub use gather::RunFolders;
+pub use pack::{Packed, pack};
 pub use replay::{Compared, Difference, compare};
 pub use verify::{Fault, Verified, verify};
 
@@ -104,10 +121,26 @@ impl fmt::Display for Limits {
     }
 }
 
-/// Most bytes that are kept in memory of what is read: of the manifest and the experiments together.
-const MOST_KEPT: u64 = 16 << 20;
+/// Most bytes that are kept in memory of what is read: of manifests, metadata and experiments together.
+const MOST_KEPT: u64 = 64 << 20;
 
+/// How far a repeated figure that is no count may be off, over the larger of the two: sums of floats keep this many digits whatever
+/// the machine, and nothing that is wrong by a count does.
+pub const TOLERANCE: f64 = 1e-9;
+
+const BAGIT: &str = "bagit.txt";
+const BAG_INFO: &str = "bag-info.txt";
 const MANIFEST: &str = "manifest-sha256.txt";
+const TAG_MANIFEST: &str = "tagmanifest-sha256.txt";
+
+/// The files of a bag that are not payload. They come first: with them, what follows is checked as it is read.
+const TAGS: [&str; 4] = [BAGIT, BAG_INFO, MANIFEST, TAG_MANIFEST];
+
+/// The folder of the payload.
+const PAYLOAD: &str = "data/";
+
+const METADATA: &str = "data/ro-crate-metadata.json";
+const REPLAY: &str = "data/replay.json";
 
 /// Why an archive cannot be written or read.
 #[derive(Debug, thiserror::Error)]
@@ -194,10 +227,24 @@ impl<R: Read> Read for Digesting<R> {
     }
 }
 
-/// Whether a path below the archive's folder is plain: relative, no `.` or `..`, nothing that a terminal, a manifest or
-/// another system would read differently.
+/// The header of a file in an archive, if its path has room there: nothing in it tells who packed it, or when.
+fn header(folder: &str, path: &str, size: u64, mtime: u32) -> Option<tar::Header> {
+    let mut header = tar::Header::new_ustar();
+    header.set_entry_type(tar::EntryType::Regular);
+    header.set_mode(0o644);
+    header.set_uid(0);
+    header.set_gid(0);
+    header.set_mtime(mtime.into());
+    header.set_size(size);
+    header.set_path(format!("{folder}/{path}")).ok()?;
+    header.set_cksum();
+    Some(header)
+}
+
+/// Whether a path below the archive's folder is plain: relative, no `.` or `..`, nothing that a terminal, a manifest (in which `%`
+/// begins a code) or another system would read differently.
 fn is_plain(path: &str) -> bool {
-    let plain = |c: char| !c.is_control() && c != '\\' && c != ':';
+    let plain = |c: char| !c.is_control() && !"\\:%".contains(c);
     path.chars().all(plain) && path.split('/').all(|part| !matches!(part, "" | "." | ".."))
 }
 
@@ -222,7 +269,7 @@ mod tests {
             assert!(is_plain(path), "{path}");
         }
         for path in [
-            "", "/a", "a/", "a//b", ".", "a/./b", "../a", "a/..", "a\\b", "c:a", "a\nb",
+            "", "/a", "a/", "a//b", ".", "a/./b", "../a", "a/..", "a\\b", "c:a", "a\nb", "a%2e",
         ] {
             assert!(!is_plain(path), "{path}");
         }

@@ -3,17 +3,20 @@
 use std::collections::BTreeSet;
 use std::fmt;
 use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader};
+use std::io::{self, BufReader};
 use std::path::Path;
 
+use super::alike::{self, Alike};
 use super::walk::walk;
-use super::{ArchiveError, EXPERIMENT, Verified, holds_times, run_of_data};
+use super::{ArchiveError, Files, PAYLOAD, TOLERANCE, Verified, holds_times, run_of_data};
+use crate::study::records::RunTimes;
+use crate::study::store::{CELLS, EXPERIMENT, RUN_TIMES};
 
-/// A file of data that did not come out as archived; its path is below the archive's folder.
+/// A file of data that did not come out as archived, by its path in the archive's `data/`.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Difference {
-    /// The bytes differ, first in this line.
-    Line(String, u64),
+    /// They differ first in this line, as told.
+    Line(String, u64, String),
     /// Archived, and not written again.
     Gone(String),
     /// Written, and not archived.
@@ -25,7 +28,9 @@ pub enum Difference {
 impl fmt::Display for Difference {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::Line(path, line) => write!(f, "{path}: differs, first in line {line}"),
+            Self::Line(path, line, what) => {
+                write!(f, "{path}: differs, first in line {line}: {what}")
+            }
             Self::Gone(path) => write!(f, "{path}: not written by the repeated run"),
             Self::New(path) => write!(f, "{path}: written by the repeated run only"),
             Self::Experiment(path) => write!(f, "{path}: differs from the experiment's text"),
@@ -34,11 +39,34 @@ impl fmt::Display for Difference {
 }
 
 /// What came of a comparison.
+#[derive(Default)]
 pub struct Compared {
-    /// Files that are equal.
+    /// Files that are equal to the byte.
     pub equal: usize,
+    /// Files that are equal but for figures, no counts, within [`TOLERANCE`].
+    pub within: Vec<String>,
     /// The others.
     pub differences: Vec<Difference>,
+    /// Wall seconds of each run, archived and repeated, where both are told.
+    pub seconds: Vec<(String, [f64; 2])>,
+}
+
+impl fmt::Display for Compared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for (run, [archived, repeated]) in &self.seconds {
+            writeln!(
+                f,
+                "{run}: {archived:.3} s archived, {repeated:.3} s repeated"
+            )?;
+        }
+        for path in &self.within {
+            writeln!(f, "{path}: equal within {TOLERANCE:e}")?;
+        }
+        for difference in &self.differences {
+            writeln!(f, "{difference}")?;
+        }
+        Ok(())
+    }
 }
 
 /// Hold the runs repeated into `root` against a verified archive: all files of data but those that hold times, and each
@@ -47,73 +75,71 @@ pub struct Compared {
 /// # Errors
 /// If the archive cannot be read any more, or is no longer the one that was verified.
 pub fn compare(path: &Path, verified: &Verified, root: &Path) -> Result<Compared, ArchiveError> {
-    let mut differences = Vec::new();
+    let mut result = Compared::default();
     let mut compared = BTreeSet::new();
-    let contents = walk(path, |below, archived| {
+    let mut files = Files::new();
+    walk(path, &mut files, |below, archived| {
+        let Some(below) = below.strip_prefix(PAYLOAD) else {
+            return Ok(());
+        };
         let Some((run, file)) = run_of_data(below).filter(|(_, file)| !holds_times(file)) else {
             return Ok(());
         };
         compared.insert(below.to_string());
         if file == EXPERIMENT {
-            let source = verified.files.get(&format!("experiments/{run}.toml"));
-            if source != verified.files.get(below) {
-                differences.push(Difference::Experiment(below.into()));
+            let facts = |path: &str| verified.files.get(&format!("{PAYLOAD}{path}"));
+            if facts(&format!("experiments/{run}.toml")) == facts(below) {
+                result.equal += 1;
+            } else {
+                result
+                    .differences
+                    .push(Difference::Experiment(below.into()));
             }
             return Ok(());
         }
-        match File::open(root.join(below)) {
-            Ok(again) => {
-                let line = first_difference(BufReader::new(archived), BufReader::new(again))?;
-                differences.extend(line.map(|line| Difference::Line(below.into(), line)));
-            }
+        let again = match File::open(root.join(below)) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
-                differences.push(Difference::Gone(below.into()));
+                result.differences.push(Difference::Gone(below.into()));
+                return Ok(());
             }
-            Err(error) => return Err(error),
+            again => again?,
+        };
+        match alike::compare(file, BufReader::new(archived), BufReader::new(again))? {
+            Alike::Equal => result.equal += 1,
+            Alike::Within => result.within.push(below.into()),
+            Alike::Differs(line, what) => {
+                let difference = Difference::Line(below.into(), line, what);
+                result.differences.push(difference);
+            }
         }
         Ok(())
     })?;
-    if contents.files != verified.files {
+    if files != verified.files {
         return Err(ArchiveError::Refused {
             path: path.into(),
             what: "it changed while the runs were repeated".into(),
         });
     }
-    let equal = compared.len() - differences.len();
     for run in verified.experiments.keys() {
+        let data = root.join("data").join(run);
         let mut written = Vec::new();
-        list(
-            &root.join("data").join(run),
-            &format!("data/{run}"),
-            &mut written,
-        )?;
+        list(&data, &format!("data/{run}"), &mut written)?;
         let new = written.into_iter().filter(|file| {
             let name = run_of_data(file).map_or("", |(_, name)| name);
-            !name.starts_with("cells/") && !holds_times(name) && !compared.contains(file)
+            let resumes = name.split_once('/').is_some_and(|(top, _)| top == CELLS);
+            !resumes && !holds_times(name) && !compared.contains(file)
         });
-        differences.extend(new.map(Difference::New));
-    }
-    Ok(Compared { equal, differences })
-}
-
-/// The line, from 1, in which two texts first differ.
-fn first_difference(mut a: impl BufRead, mut b: impl BufRead) -> io::Result<Option<u64>> {
-    let mut line = 1;
-    loop {
-        let (left, right) = (a.fill_buf()?, b.fill_buf()?);
-        let n = left.len().min(right.len());
-        if n == 0 {
-            let both_end = left.len() == right.len();
-            return Ok((!both_end).then_some(line));
+        result.differences.extend(new.map(Difference::New));
+        if let Some(archived) = verified.seconds.get(run)
+            && let Ok(text) = fs::read(data.join(RUN_TIMES))
+            && let Ok(times) = serde_json::from_slice::<RunTimes>(&text)
+        {
+            result
+                .seconds
+                .push((run.clone(), [*archived, times.seconds]));
         }
-        let same = left.iter().zip(right).take_while(|(x, y)| x == y).count();
-        line += left[..same].iter().filter(|&&byte| byte == b'\n').count() as u64;
-        if same < n {
-            return Ok(Some(line));
-        }
-        a.consume(n);
-        b.consume(n);
     }
+    Ok(result)
 }
 
 /// The files below a folder of our own, as `prefix/...`.
@@ -133,25 +159,4 @@ fn list(folder: &Path, prefix: &str, files: &mut Vec<String>) -> Result<(), Arch
     }
     files.sort();
     Ok(())
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_first_line_that_differs() {
-        // Small buffers, so that lines and ends lie across them.
-        let first = |a: &str, b: &str| {
-            let a = BufReader::with_capacity(3, a.as_bytes());
-            let b = BufReader::with_capacity(5, b.as_bytes());
-            first_difference(a, b).expect("in memory")
-        };
-        assert_eq!(first("", ""), None);
-        assert_eq!(first("one\ntwo\nthree\n", "one\ntwo\nthree\n"), None);
-        assert_eq!(first("one\ntwo\nthree\n", "one\ntwo\nthrae\n"), Some(3));
-        assert_eq!(first("one\ntwo\n", "one\ntwo"), Some(2));
-        assert_eq!(first("one\ntwo\n", "one\ntwo\nthree\n"), Some(3));
-        assert_eq!(first("x", ""), Some(1));
-    }
 }

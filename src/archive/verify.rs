@@ -1,14 +1,19 @@
-//! Is an archive what its manifest says?
+//! Is an archive what its manifests and its metadata say?
 
 use std::collections::BTreeMap;
 use std::fmt;
 use std::io::Read;
 use std::path::Path;
 
-use super::walk::{Contents, walk};
-use super::{ArchiveError, Files, MANIFEST, MOST_KEPT, manifest, run_of_experiment};
+use super::walk::walk;
+use super::{
+    ArchiveError, BAG_INFO, BAGIT, Files, MANIFEST, METADATA, MOST_KEPT, PAYLOAD, REPLAY,
+    TAG_MANIFEST, TAGS, bag, manifest, metadata, reproduced, run_of_data, run_of_experiment,
+};
+use crate::study::records::RunTimes;
+use crate::study::store::RUN_TIMES;
 
-/// A file that is not as the manifest says; its path is below the archive's folder.
+/// A file that is not as the others say; its path is below the archive's folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum Fault {
     /// Its digest is another.
@@ -17,6 +22,8 @@ pub enum Fault {
     Missing(String),
     /// It is there and not listed.
     Unlisted(String),
+    /// What it says of others is not so.
+    Contradicts(String, String),
 }
 
 impl fmt::Display for Fault {
@@ -25,6 +32,7 @@ impl fmt::Display for Fault {
             Self::Differs(path) => write!(f, "{path}: differs from the manifest"),
             Self::Missing(path) => write!(f, "{path}: missing"),
             Self::Unlisted(path) => write!(f, "{path}: not in the manifest"),
+            Self::Contradicts(path, what) => write!(f, "{path}: {what}"),
         }
     }
 }
@@ -37,49 +45,78 @@ pub struct Verified {
     pub faults: Vec<Fault>,
     /// Text of the experiment of each run, as far as it is text.
     pub experiments: BTreeMap<String, String>,
+    /// Wall seconds that each run took, where they are told.
+    pub(super) seconds: BTreeMap<String, f64>,
     pub(super) files: Files,
 }
 
 impl Verified {
-    /// How many files it has, the manifest left out, and their bytes.
+    /// How many files it has, those left out that only tell of the others, and their bytes.
     pub fn size(&self) -> (usize, u64) {
-        let files = || self.files.iter().filter(|(path, _)| *path != MANIFEST);
+        let files = || self.files.iter().filter(|(path, _)| is_payload(path));
         (files().count(), files().map(|(_, facts)| facts.size).sum())
     }
 }
 
-/// Check every file of an archive against its manifest. Nothing is written.
+fn is_payload(path: &str) -> bool {
+    path.starts_with(PAYLOAD)
+}
+
+/// Whether what a file says matters here.
+fn is_read(path: &str) -> bool {
+    let below = path.strip_prefix(PAYLOAD).unwrap_or_default();
+    TAGS.contains(&path)
+        || [METADATA, REPLAY].contains(&path)
+        || run_of_experiment(below).is_some()
+        || run_of_times(below).is_some()
+}
+
+/// The run of which a file tells the times.
+fn run_of_times(below: &str) -> Option<&str> {
+    run_of_data(below)
+        .filter(|(_, file)| *file == RUN_TIMES)
+        .map(|(run, _)| run)
+}
+
+/// Check every file of an archive, or of its unpacked folder, against its manifests, its sizes and what else tells of it. Nothing is
+/// written.
 ///
 /// # Errors
 /// If it cannot be read, or not trusted: entries that are no regular files, paths that lead elsewhere, files there twice,
-/// sizes beyond all use, a damaged or missing manifest, anything behind the end.
+/// sizes beyond all use, a damaged or missing manifest, another version of BagIt, anything behind the end. The message names the
+/// file at which that is seen, and the first one before it that is not as it was packed.
 pub fn verify(path: &Path) -> Result<Verified, ArchiveError> {
+    let mut texts = BTreeMap::new();
+    let mut files = Files::new();
+    let mut room = MOST_KEPT;
+    let walked = walk(path, &mut files, |below, reader| {
+        if is_read(below) {
+            let mut bytes = Vec::new();
+            // What is cut off here cannot be read below, and is not run.
+            room -= reader.take(room).read_to_end(&mut bytes)? as u64;
+            texts.insert(below.to_string(), bytes);
+        }
+        Ok(())
+    });
     let refused = |what: String| ArchiveError::Refused {
         path: path.into(),
         what,
     };
-    let mut listed = None;
-    let mut experiments = BTreeMap::new();
-    let mut room = MOST_KEPT;
-    let Contents { name, files } = walk(path, |below, reader| {
-        let run = run_of_experiment(below);
-        if below == MANIFEST || run.is_some() {
-            let mut bytes = Vec::new();
-            // What is cut off here cannot be read below, and is not run.
-            room -= reader.take(room).read_to_end(&mut bytes)? as u64;
-            match run {
-                None => listed = Some(bytes),
-                Some(run) => {
-                    if let Ok(text) = String::from_utf8(bytes) {
-                        experiments.insert(run.to_string(), text);
-                    }
-                }
-            }
+    let name = match walked {
+        Ok(name) => name,
+        Err(ArchiveError::Refused { what, .. }) => {
+            let listed = listed(&texts).unwrap_or_default();
+            let first = listed
+                .into_iter()
+                .find(|(file, sha256)| files.get(file).is_some_and(|f| f.sha256 != *sha256));
+            return Err(refused(match first {
+                Some((file, _)) => format!("{}; {what}", Fault::Differs(file)),
+                None => what,
+            }));
         }
-        Ok(())
-    })?;
-    let listed = listed.ok_or_else(|| refused(format!("it has no {MANIFEST}")))?;
-    let listed = manifest::read(&listed).map_err(|what| refused(format!("{MANIFEST}, {what}")))?;
+        Err(error) => return Err(error),
+    };
+    let listed = listed(&texts).map_err(refused)?;
     let mut faults = Vec::new();
     for (file, sha256) in &listed {
         match files.get(file) {
@@ -90,12 +127,78 @@ pub fn verify(path: &Path) -> Result<Verified, ArchiveError> {
     }
     let unlisted = files
         .keys()
-        .filter(|file| *file != MANIFEST && !listed.contains_key(*file));
+        .filter(|file| *file != TAG_MANIFEST && !listed.contains_key(*file));
     faults.extend(unlisted.cloned().map(Fault::Unlisted));
+    // What is not as it was packed tells nothing of the others.
+    if faults.is_empty() {
+        if texts[BAGIT] != bag::DECLARATION.as_bytes() {
+            return Err(refused(format!(
+                "{BAGIT} does not say BagIt-Version: 1.0 and UTF-8"
+            )));
+        }
+        faults = contradictions(&texts, &files);
+    }
+    let mut experiments = BTreeMap::new();
+    let mut seconds = BTreeMap::new();
+    for (file, bytes) in texts {
+        let below = file.strip_prefix(PAYLOAD).unwrap_or_default();
+        if let Some(run) = run_of_experiment(below)
+            && let Ok(text) = String::from_utf8(bytes.clone())
+        {
+            experiments.insert(run.to_string(), text);
+        }
+        if let Some(run) = run_of_times(below)
+            && let Ok(times) = serde_json::from_slice::<RunTimes>(&bytes)
+        {
+            seconds.insert(run.to_string(), times.seconds);
+        }
+    }
     Ok(Verified {
         name,
         faults,
         experiments,
+        seconds,
         files,
     })
+}
+
+/// Path and digest of every file that the two manifests list; the message says which line of which is wrong.
+fn listed(texts: &BTreeMap<String, Vec<u8>>) -> Result<BTreeMap<String, [u8; 32]>, String> {
+    let mut all = BTreeMap::new();
+    for (name, of_payload) in [(MANIFEST, true), (TAG_MANIFEST, false)] {
+        let bytes = texts.get(name).ok_or_else(|| format!("it has no {name}"))?;
+        let listed = manifest::read(bytes).map_err(|what| format!("{name}, {what}"))?;
+        if let Some(path) = listed.keys().find(|path| is_payload(path) != of_payload) {
+            return Err(format!("{name}: {path:?} belongs in the other manifest"));
+        }
+        all.extend(listed);
+    }
+    // Each of these is there for what it tells.
+    for path in [BAGIT, BAG_INFO, MANIFEST, METADATA, REPLAY] {
+        if !all.contains_key(path) {
+            return Err(format!("its manifests do not list {path}"));
+        }
+    }
+    Ok(all)
+}
+
+/// Where sound files contradict each other.
+fn contradictions(texts: &BTreeMap<String, Vec<u8>>, files: &Files) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    let (stated, found) = (bag::stated_oxum(&texts[BAG_INFO]), bag::oxum(files));
+    if stated != Some(&found) {
+        let stated = stated.unwrap_or("nothing");
+        let what = format!("Payload-Oxum is {stated:?}, the payload's bytes and files are {found}");
+        faults.push(Fault::Contradicts(BAG_INFO.into(), what));
+    }
+    for (path, checked) in [
+        (METADATA, metadata::check(&texts[METADATA], files)),
+        (REPLAY, reproduced::check(&texts[REPLAY], files)),
+    ] {
+        if let Err(what) = checked {
+            let what = what.replace(char::is_control, " ");
+            faults.push(Fault::Contradicts(path.into(), what));
+        }
+    }
+    faults
 }

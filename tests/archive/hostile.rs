@@ -2,35 +2,6 @@
 
 use super::*;
 
-#[test]
-fn a_changed_byte_in_the_compressed_stream_is_found() {
-    let (_folder, file) = archive();
-    let bytes = fs::read(&file).unwrap();
-    let n = bytes.len();
-    // Bytes 4 to 9 of the header are a time and names of systems: nothing that the files depend on.
-    let mut places: Vec<_> = [0, 1, 2, 3, 10, 11].into();
-    places.extend((1..40).map(|i| 11 + i * (n - 19) / 40));
-    places.extend(n - 8..n);
-    for at in places {
-        let mut changed = bytes.clone();
-        changed[at] ^= 0xff;
-        fs::write(&file, changed).unwrap();
-        let output = verify(&file, &[]).get_output().clone();
-        assert!(
-            matches!(output.status.code(), Some(1 | 2)),
-            "byte {at}: {output:?}"
-        );
-    }
-    for length in [0, 1, 9, 10, 1000, n / 2, n - 8, n - 1] {
-        fs::write(&file, &bytes[..length]).unwrap();
-        refused(&file, "damaged or not a .tar.gz");
-    }
-    for garbage in [&b"\0"[..], b"x", &bytes] {
-        fs::write(&file, [&bytes, garbage].concat()).unwrap();
-        refused(&file, "something follows the compressed files");
-    }
-}
-
 /// Refused with one message, by replay too, and nothing written.
 fn refused(file: &Path, part: &str) {
     let folder = file.parent().unwrap();
@@ -80,6 +51,7 @@ fn hostile_archives_are_refused() {
         "a/c:x",
         "a/x\ny",
         "a/\x1b[2J",
+        "a/%2e%2e/x",
     ] {
         with(&[(path, regular)], "is no path of the form FOLDER/FILE");
     }
@@ -114,13 +86,35 @@ fn hostile_archives_are_refused() {
         gzip.write_all(tar).unwrap();
         fs::write(&file, gzip.finish().unwrap()).unwrap();
     };
+    // What another program has packed: it may hide what cannot be seen here.
+    let other = "is not as `validate archive` writes it";
+    for change in [
+        |h: &mut Header| h.set_mode(0o4755),
+        |h: &mut Header| h.set_uid(1000),
+        |h: &mut Header| h.set_gid(1000),
+        |h: &mut Header| h.as_old_mut().linkname[0] = b'x',
+        |h: &mut Header| h.as_old_mut().linkflag[0] = 0,
+        |h: &mut Header| h.as_mut_bytes()[511] = 1,
+        |h: &mut Header| h.as_mut_bytes()[257..265].copy_from_slice(b"ustar  \0"),
+    ] {
+        let mut changed = header("a/x", regular, 0);
+        change(&mut changed);
+        changed.set_cksum();
+        raw(&[&changed.as_bytes()[..], &[0; 1024]].concat());
+        refused(&file, other);
+    }
+    let mut changed = header("a/x", regular, 0);
+    changed.as_mut_bytes()[2] = 0xff;
+    changed.set_cksum();
+    raw(changed.as_bytes());
+    refused(&file, "is not UTF-8");
     // Sizes that are claimed and not there, or beyond all use.
     for (size, part) in [
-        (1_u64 << 20, "ends within"),
+        (1_u64 << 20, "ends within \"x\""),
         (3 << 30, "too large"),
         (1 << 50, "too large"),
-        (u64::MAX, "damaged"),
-        (u64::MAX - 600, "damaged"),
+        (u64::MAX, "too large"),
+        (u64::MAX - 600, "too large"),
     ] {
         raw(header("a/x", regular, size).as_bytes());
         let before = fs::read(&file).unwrap();
@@ -135,8 +129,32 @@ fn hostile_archives_are_refused() {
     raw(&header("a/x", regular, 0).as_bytes()[..300]);
     refused(&file, "damaged");
     let end = [0; 1024];
-    raw(&[&header("a/x", regular, 0).as_bytes()[..], &end, b"more"].concat());
-    refused(&file, "something follows the last file");
+    for more in [&b"more"[..], &end] {
+        raw(&[&header("a/x", regular, 0).as_bytes()[..], &end, more].concat());
+        refused(&file, "something follows the last file");
+    }
+    raw(&[
+        &header("a/x", regular, 1).as_bytes()[..],
+        &[b'x'; 512],
+        &end,
+    ]
+    .concat());
+    refused(&file, "damaged in \"x\" (something follows it)");
+    // A time, names and comments in the header of the stream.
+    let mut dated = pack([("a/x", regular, &b"x"[..])]);
+    dated[4] = 1;
+    fs::write(&file, dated).unwrap();
+    refused(&file, "the gzip header tells another time");
+    for gzip in [
+        GzBuilder::new().operating_system(3),
+        GzBuilder::new().operating_system(255).filename("x"),
+        GzBuilder::new().operating_system(255).comment("x"),
+        GzBuilder::new().operating_system(255).extra("x"),
+    ] {
+        let gzip = gzip.write(Vec::new(), Compression::default());
+        fs::write(&file, gzip.finish().unwrap()).unwrap();
+        refused(&file, "the gzip header is not as");
+    }
     raw(b"hello");
     refused(&file, "damaged");
     fs::write(&file, "hello").unwrap();

@@ -1,5 +1,8 @@
 //! What is packed, and how.
 
+use sahlab::study::Plan;
+use sahlab::study::plan::Overrides;
+
 use super::*;
 
 #[test]
@@ -33,7 +36,19 @@ fn the_same_runs_give_the_same_bytes() {
         assert!(h.as_ustar().is_some());
         paths.push(entry.path().unwrap().to_str().unwrap().to_string());
     }
-    assert!(paths.is_sorted());
+    // What checks the others comes first.
+    let below = |path: &String| path.split_once('/').unwrap().1.to_string();
+    let first: Vec<_> = paths[..4].iter().map(below).collect();
+    assert_eq!(
+        first,
+        [
+            "bagit.txt",
+            "bag-info.txt",
+            "manifest-sha256.txt",
+            "tagmanifest-sha256.txt"
+        ]
+    );
+    assert!(paths[4..].is_sorted());
     assert!(
         paths
             .iter()
@@ -42,18 +57,26 @@ fn the_same_runs_give_the_same_bytes() {
     for path in [
         "Cargo.lock",
         "README.md",
+        "CLAIMS.md",
+        "CITATION.cff",
+        "LICENSE-MIT",
+        "LICENSE-APACHE",
         "environment.json",
-        "manifest-sha256.txt",
+        "replay.json",
+        "ro-crate-metadata.json",
         "experiments/e.toml",
         "experiments/e-quick.toml",
+        "resolved/e.toml",
+        "resolved/e-quick.toml",
         "data/e/experiment.toml",
         "data/e/nodes.csv",
         "data/e/timings.csv",
+        "data/e/times-run.json",
         "data/e-quick/tables/cells.md",
         "plots/e-quick/figure3.png",
         "plots/e-quick/report.html",
     ] {
-        assert!(paths.contains(&format!("e-e-quick/{path}")), "{path}");
+        assert!(paths.contains(&format!("e-e-quick/data/{path}")), "{path}");
     }
 
     // Another time, if asked for; nonsense is refused.
@@ -67,6 +90,14 @@ fn the_same_runs_give_the_same_bytes() {
     dated("1700000000").code(0);
     let bytes = fs::read(elsewhere.path().join("dated.tar.gz")).unwrap();
     assert_eq!(bytes[4..8], 1_700_000_000_u32.to_le_bytes());
+    let files = unpack(&elsewhere.path().join("dated.tar.gz"));
+    let text = |path: &str| String::from_utf8(files[path].clone()).unwrap();
+    assert!(text("e/bag-info.txt").contains("\nBagging-Date: 2023-11-14\n"));
+    assert!(text("e/data/ro-crate-metadata.json").contains("\"datePublished\": \"2023-11-14\""));
+    validate(elsewhere.path())
+        .args(["verify", "dated.tar.gz"])
+        .assert()
+        .code(0);
     dated("yesterday")
         .code(2)
         .stderr(contains("SOURCE_DATE_EPOCH is 'yesterday'"));
@@ -76,17 +107,20 @@ fn the_same_runs_give_the_same_bytes() {
 fn what_made_it_and_what_to_do_with_it_is_told() {
     let (folder, file) = archive();
     let files = unpack(&file);
-    let text = |path: &str| String::from_utf8(files[&format!("e-e-quick/{path}")].clone()).unwrap();
+    let text =
+        |path: &str| String::from_utf8(files[&format!("e-e-quick/data/{path}")].clone()).unwrap();
     let environment: serde_json::Value = serde_json::from_str(&text("environment.json")).unwrap();
-    assert_eq!(environment["revision"], sahlab::REVISION);
-    assert!(
-        environment["rustc"]
-            .as_str()
-            .unwrap()
-            .starts_with("rustc 1.")
-    );
-    assert!(environment["target"].as_str().unwrap().contains('-'));
-    for path in ["environment.json", "README.md", "experiments/e.toml"] {
+    let measured = &environment["measured"]["e-quick"][0];
+    for machine in [&environment["packed"], measured] {
+        assert_eq!(machine["revision"], sahlab::REVISION);
+        assert!(machine["rustc"].as_str().unwrap().starts_with("rustc 1."));
+        assert!(machine["target"].as_str().unwrap().contains('-'));
+    }
+    assert!(measured["seconds"].as_f64().unwrap() > 0.0);
+    let told = files.keys().filter(|path| !path.contains("/data/data/"));
+    let told = told.filter(|path| !path.contains("/plots/"));
+    for path in told.map(|path| path.strip_prefix("e-e-quick/data/")) {
+        let Some(path) = path else { continue };
         let host = fs::read_to_string("/etc/hostname").unwrap_or_default();
         let names = [
             runs().to_str().unwrap(),
@@ -108,6 +142,7 @@ fn what_made_it_and_what_to_do_with_it_is_told() {
         "`validate run e.toml --quick --seed 7 --lines 5000`",
         "Does it \\| work?",
         "| `m.obj` | `",
+        "sahlab 0.1.0, revision ",
     ] {
         assert!(readme.contains(part), "{part}");
     }
@@ -117,6 +152,26 @@ fn what_made_it_and_what_to_do_with_it_is_told() {
     let experiment = text("experiments/e.toml");
     assert!(experiment.starts_with(EXPERIMENT) && experiment.contains("\n[run]\n"));
     assert_eq!(experiment, text("data/e/experiment.toml"));
+    // Written out whole it asks for the same.
+    for run in ["e", "e-quick"] {
+        let plan = |path: &str| {
+            let path = format!("{path}/{run}.toml");
+            let plan = Plan::parse(&text(&path), &path, run, Overrides::default());
+            let plan = plan.unwrap();
+            (plan.seed, plan.scenes, plan.cost, plan.kind)
+        };
+        assert_eq!(plan("experiments"), plan("resolved"));
+        assert!(!text(&format!("resolved/{run}.toml")).contains("[quick]"));
+    }
+    // A row a verdict.
+    let claims = text("CLAIMS.md");
+    let summary: serde_json::Value = serde_json::from_str(&text("data/e/summary.json")).unwrap();
+    let verdicts = summary["verdicts"].as_array().unwrap();
+    let rows = claims.lines().filter(|line| line.starts_with("| e | "));
+    assert_eq!(rows.count(), verdicts.len());
+    assert!(claims.contains(
+        "| `validate run experiments/e-quick.toml --out again` | `data/e-quick/summary.json` |"
+    ));
 }
 
 #[test]
@@ -167,11 +222,29 @@ fn what_cannot_be_repeated_is_not_archived() {
     fs::remove_file(&kept).unwrap();
     archive(&["data/e"], "no experiment.toml; what `validate scene`");
     fs::write(&kept, &text).unwrap();
+    let times = root.join("data/e/times-run.json");
+    let told = fs::read(&times).unwrap();
+    fs::remove_file(&times).unwrap();
+    archive(&["data/e"], "no times-run.json; run it again");
+    fs::write(&times, "{}").unwrap();
+    archive(
+        &["data/e"],
+        "times-run.json: not as this program writes it: ",
+    );
+    fs::write(&times, told).unwrap();
+    let odd = root.join("data/e/50%.csv");
+    fs::write(&odd, "").unwrap();
+    archive(&["data/e"], "must be UTF-8 without");
+    fs::remove_file(&odd).unwrap();
+    let long = root.join("data/e").join("x".repeat(101));
+    fs::write(&long, "").unwrap();
+    archive(&["data/e"], "its path is too long");
+    fs::remove_file(&long).unwrap();
     validate(root)
         .args(["archive", "data/e", "--dry-run"])
         .assert()
         .code(0)
-        .stdout(contains("  e/data/e/cells.csv\n"));
+        .stdout(contains("  e/data/data/e/cells.csv\n"));
     assert!(!root.join("archives").exists());
     fs::remove_dir_all(root.join("plots/e")).unwrap();
     archive(&["data/e"], "`validate plots` draws");

@@ -1,5 +1,6 @@
 //! Runs repeated from an archive.
 
+use super::sealed::{change, reseal};
 use super::*;
 
 #[test]
@@ -10,15 +11,23 @@ fn replay_gives_the_same_data() {
     let data = unpack(&file);
     let data = data
         .keys()
-        .filter(|path| path.starts_with("e-e-quick/data/") && !holds_times(path));
-    let told = format!("replayed: all {} files of data equal", data.count());
+        .filter(|path| path.starts_with("e-e-quick/data/data/") && !holds_times(path));
+    let told = format!(
+        "replayed: all {} files of data equal to the byte; times are only shown\n",
+        data.count()
+    );
     for threads in ["1", "2"] {
         validate(folder.path())
             .args(["verify", "a.tar.gz", "--replay", "--threads", threads])
             .env("TMPDIR", &temporary)
             .assert()
             .code(0)
-            .stdout(contains(&told))
+            .stdout(
+                contains(&told)
+                    .and(contains("\ne: "))
+                    .and(contains("\ne-quick: "))
+                    .and(contains(" s archived, ").count(2)),
+            )
             .stderr("counting lines through 2 cells\ncounting lines through 1 cell\n");
         assert!(fs::read_dir(&temporary).unwrap().next().is_none());
     }
@@ -46,39 +55,19 @@ fn replay_gives_the_same_data() {
     assert!(!folder.path().join("none").exists());
 }
 
-/// Give a file other bytes and the manifest the digest of these.
-fn forge(files: &mut BTreeMap<String, Vec<u8>>, path: &str, change: impl Fn(&str) -> String) {
-    let digest = |bytes: &[u8]| -> String {
-        Sha256::digest(bytes)
-            .iter()
-            .map(|b| format!("{b:02x}"))
-            .collect()
-    };
-    let old = String::from_utf8(files[path].clone()).unwrap();
-    let new = change(&old);
-    assert_ne!(old, new, "{path}");
-    let manifest = files.get_mut("e-e-quick/manifest-sha256.txt").unwrap();
-    let text = String::from_utf8(manifest.clone()).unwrap();
-    let (old, fresh) = (digest(old.as_bytes()), digest(new.as_bytes()));
-    let below = path.split_once('/').unwrap().1;
-    let line = |digest: &str| format!("{digest}  {below}\n");
-    assert!(text.contains(&line(&old)));
-    *manifest = text.replace(&line(&old), &line(&fresh)).into_bytes();
-    files.insert(path.into(), new.into_bytes());
-}
-
 #[test]
 fn replay_finds_forged_data() {
     let (folder, file) = archive();
     let files = unpack(&file);
-    let replay = |files: &BTreeMap<String, Vec<u8>>| {
-        fs::write(&file, repack(files)).unwrap();
+    let replay = |mut files: BTreeMap<String, Vec<u8>>| {
+        reseal(&mut files);
+        fs::write(&file, repack(&files)).unwrap();
         verify(&file, &[]).code(0);
         verify(&file, &["--replay", "--quiet"])
     };
     // One count of one node.
     let mut forged = files.clone();
-    forge(&mut forged, "e-e-quick/data/e/nodes.csv", |text| {
+    change(&mut forged, "data/data/e/nodes.csv", |text| {
         let mut lines: Vec<_> = text.lines().map(str::to_string).collect();
         let fields: Vec<_> = lines[1].split(',').collect();
         let hits: u64 = fields[8].parse().unwrap();
@@ -88,10 +77,11 @@ fn replay_finds_forged_data() {
         lines[1] = fields.join(",");
         lines.join("\n") + "\n"
     });
-    let output = replay(&forged).code(1).get_output().stdout.clone();
+    let output = replay(forged).code(1).get_output().stdout.clone();
     let output = String::from_utf8(output).unwrap();
     assert!(
-        output.contains("\ndata/e/nodes.csv: differs, first in line 2\nreplayed: 1 of "),
+        output.contains("\ndata/e/nodes.csv: differs, first in line 2: \"")
+            && output.contains("repeated\nreplayed: 1 of "),
         "{output}"
     );
     // What differs is kept, to be looked at.
@@ -101,35 +91,28 @@ fn replay_finds_forged_data() {
 
     // Times may differ; so may what no run writes.
     let mut forged = files.clone();
-    forge(&mut forged, "e-e-quick/data/e/timings.csv", |text| {
+    change(&mut forged, "data/data/e/timings.csv", |text| {
         text.replace("sah,", "sah,9")
     });
-    replay(&forged).code(0);
+    replay(forged).code(0);
     // The options under which it ran; a file that the run does not write, and one that it does.
     let mut forged = files.clone();
     for path in ["experiments/e-quick.toml", "data/e-quick/experiment.toml"] {
-        forge(&mut forged, &format!("e-e-quick/{path}"), |text| {
+        change(&mut forged, &format!("data/{path}"), |text| {
             text.replace("lines = 5000", "lines = 5001")
         });
     }
-    let assert = replay(&forged).code(1).stdout(
+    let assert = replay(forged).code(1).stdout(
         contains("data/e-quick/cells.csv: differs, first in line 2").and(contains("data/e/").not()),
     );
     remove_kept(&assert);
     let mut forged = files.clone();
-    forge(
-        &mut forged,
-        "e-e-quick/data/e-quick/experiment.toml",
-        |text| text.replace("it |", "this |"),
-    );
-    let cells = forged.remove("e-e-quick/data/e/cells.csv").unwrap();
-    forged.insert("e-e-quick/data/e/cellz.csv".into(), cells);
-    let manifest = forged.get_mut("e-e-quick/manifest-sha256.txt").unwrap();
-    let text = String::from_utf8(manifest.clone()).unwrap();
-    *manifest = text
-        .replace("data/e/cells.csv", "data/e/cellz.csv")
-        .into_bytes();
-    let assert = replay(&forged).code(1).stdout(
+    change(&mut forged, "data/data/e-quick/experiment.toml", |text| {
+        text.replace("it |", "this |")
+    });
+    let cells = forged.remove("e-e-quick/data/data/e/cells.csv").unwrap();
+    forged.insert("e-e-quick/data/data/e/cellz.csv".into(), cells);
+    let assert = replay(forged).code(1).stdout(
         contains("data/e-quick/experiment.toml: differs from the experiment's text\n")
             .and(contains(
                 "data/e/cellz.csv: not written by the repeated run\n",
@@ -143,10 +126,11 @@ fn replay_finds_forged_data() {
     // Another program may repeat it, and says so.
     let mut older = files.clone();
     for path in ["experiments/e.toml", "data/e/experiment.toml"] {
-        forge(&mut older, &format!("e-e-quick/{path}"), |text| {
+        change(&mut older, &format!("data/{path}"), |text| {
             text.replace(sahlab::REVISION, "0123456789ab")
         });
     }
+    reseal(&mut older);
     fs::write(&file, repack(&older)).unwrap();
     verify(&file, &["--replay"]).code(0).stderr(contains(
         "note: e: made by revision 0123456789ab of the program, repeated by",
@@ -162,6 +146,36 @@ fn replay_finds_forged_data() {
         .stderr(contains("m.obj: cannot read"));
 }
 
+#[test]
+fn figures_may_differ_in_their_last_digits_counts_may_not() {
+    let (_folder, file) = archive();
+    let files = unpack(&file);
+    // The first figure with many digits in the first row, and another that is so much larger.
+    let forged = |factor: f64| {
+        let mut forged = files.clone();
+        change(&mut forged, "data/data/e/cells.csv", |text| {
+            let row = text.lines().nth(1).unwrap();
+            let figure = row
+                .split(',')
+                .find(|field| field.contains('.') && field.len() > 15);
+            let figure = figure.unwrap();
+            let other = figure.parse::<f64>().unwrap() * factor;
+            text.replacen(figure, &other.to_string(), 1)
+        });
+        reseal(&mut forged);
+        fs::write(&file, repack(&forged)).unwrap();
+        verify(&file, &["--replay", "--quiet"])
+    };
+    forged(1.0 + 4e-12).code(0).stdout(
+        contains("\ndata/e/cells.csv: equal within 1e-9\nreplayed: all ")
+            .and(contains(" to the byte, 1 within 1e-9 (relative, counts")),
+    );
+    let assert = forged(1.0 + 4e-9)
+        .code(1)
+        .stdout(contains("data/e/cells.csv: differs, first in line 2: \""));
+    remove_kept(&assert);
+}
+
 fn remove_kept(assert: &Assert) {
     let output = String::from_utf8(assert.get_output().stdout.clone()).unwrap();
     let kept = output.trim_end().rsplit(" are in ").next().unwrap();
@@ -172,21 +186,21 @@ fn remove_kept(assert: &Assert) {
 fn experiments_that_no_run_kept_are_not_replayed() {
     let (_folder, file) = archive();
     let files = unpack(&file);
-    for (change, part) in [
+    for (other, part) in [
         (EXPERIMENT, "not the text that was kept with the run 'e'"),
         ("kind = 3", "a.tar.gz:experiments/e.toml:1:8:"),
     ] {
         let mut forged = files.clone();
-        forge(&mut forged, "e-e-quick/experiments/e.toml", |_| {
-            change.into()
-        });
+        change(&mut forged, "data/experiments/e.toml", |_| other.into());
+        reseal(&mut forged);
         fs::write(&file, repack(&forged)).unwrap();
         verify(&file, &["--replay"]).code(2).stderr(contains(part));
     }
     let mut forged = files.clone();
-    forge(&mut forged, "e-e-quick/experiments/e.toml", |text| {
+    change(&mut forged, "data/experiments/e.toml", |text| {
         text.replace("experiment = \"e\"", "experiment = \"../e\"")
     });
+    reseal(&mut forged);
     fs::write(&file, repack(&forged)).unwrap();
     verify(&file, &["--replay"])
         .code(2)

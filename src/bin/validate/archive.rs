@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
 use sahlab::REVISION;
-use sahlab::archive::{self, Compared, RunFolders, Verified};
+use sahlab::archive::{self, Compared, RunFolders, TOLERANCE, Verified};
 use sahlab::scene::Scene;
 use sahlab::study::plan::Overrides;
 use sahlab::study::{self, Plan};
@@ -85,7 +85,7 @@ pub fn verify(file: &Path, replay: bool, common: &Common) -> Result<bool> {
     let name = &verified.name;
     text += &match verified.faults.len() {
         0 => format!("{name}: {files} files, {bytes} bytes, all as in the manifest\n"),
-        n => format!("{name}: {n} of {files} files not as in the manifest\n"),
+        n => format!("{name}: {files} files, faults: {n}\n"),
     };
     print(&text)?;
     if !verified.faults.is_empty() {
@@ -128,17 +128,21 @@ fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
         fs::remove_dir_all(&root).with_context(|| format!("{}: cannot remove", root.display()))?;
     }
     let compared = compared?;
-    let mut text = String::new();
-    for difference in &compared.differences {
-        text += &format!("{difference}\n");
-    }
-    let (equal, others) = (compared.equal, compared.differences.len());
+    let mut text = compared.to_string();
+    let (equal, within) = (compared.equal, compared.within.len());
+    let (all, others) = (equal + within, compared.differences.len());
     let same = others == 0;
-    text += &match others {
-        0 => format!("replayed: all {equal} files of data equal (those with times left out)\n"),
+    text += &match (others, within) {
+        (0, 0) => {
+            format!("replayed: all {all} files of data equal to the byte; times are only shown\n")
+        }
+        (0, _) => format!(
+            "replayed: all {all} files of data equal, {equal} to the byte, {within} within {TOLERANCE:e} (relative, counts and words \
+             exactly); times are only shown\n"
+        ),
         _ => format!(
             "replayed: {others} of {} files of data not equal; the repeated runs are in {}\n",
-            equal + others,
+            all + others,
             root.display()
         ),
     };

@@ -191,24 +191,25 @@ pub enum Command {
     /// Pack finished runs into one archive that anyone can check and repeat.
     ///
     /// Writes archives/NAME.tar.gz, the same bytes for the same runs; --out FILE.tar.gz names another file, --out DIR the
-    /// folder that gets archives/. With SOURCE_DATE_EPOCH set, its files have that time, else none.
+    /// folder that gets archives/. It is a bag (BagIt 1.0) whose payload is an RO-Crate (1.1, with Process Run Crate 0.5). With
+    /// SOURCE_DATE_EPOCH set, its files have that time, else none.
     #[command(after_help = examples::ARCHIVE)]
     Archive {
         /// Data folders of the runs, e.g. data/validate.
         #[arg(required = true, value_name = "DIR")]
         folders: Vec<PathBuf>,
     },
-    /// Check an archive against its manifest, and with --replay run everything in it again.
+    /// Check an archive against its manifests and metadata, and with --replay run everything in it again.
     ///
-    /// Exit codes: 0 all as it should be; 1 something differs, and every difference is told; 2 no archive of runs, or one
-    /// that could do harm; nothing of it is unpacked.
+    /// Exit codes: 0 all as it should be; 1 something differs, and every difference is told; 2 no archive of runs, a damaged one,
+    /// or one that could do harm; nothing of it is unpacked.
     #[command(after_help = examples::VERIFY)]
     Verify {
-        /// The archive.
+        /// The archive, or the folder it unpacks to.
         #[arg(value_name = "FILE.tar.gz")]
         file: PathBuf,
         /// Repeat every run from its experiment's text alone, in a temporary folder or an empty --out DIR, and compare all
-        /// data but times byte for byte.
+        /// data: counts and words exactly, other figures within 1e-9 of each other (relative). Times are only shown.
         #[arg(long)]
         replay: bool,
     },
