@@ -8,6 +8,7 @@ mod packing;
 mod replay;
 mod sealed;
 mod unpacked;
+mod validators;
 
 use std::collections::BTreeMap;
 use std::fs;
