@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 /// What the name of a file ends in that is not whole yet.
 const PART: &str = ".part";
 
-/// The files that this process is writing.
+/// The files that this process is writing, and its folders for temporary files.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
 
 /// Write a file under a temporary name in the same folder, sync it, rename it, and sync the folder. Makes the folder if it is
@@ -29,7 +29,7 @@ pub fn write_atomic_with(
         Some(folder) if !folder.as_os_str().is_empty() => folder,
         _ => Path::new("."),
     };
-    fs::create_dir_all(folder)?;
+    make_folder(folder)?;
     let temporary = folder.join(temporary_name(path));
     register(|unfinished| unfinished.insert(temporary.clone()));
     let written = write_whole(&temporary, path, write);
@@ -72,9 +72,15 @@ fn sync_folder(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
-fn register(change: impl FnOnce(&mut BTreeSet<PathBuf>) -> bool) {
+/// Make a folder, with those above it, unless it is there.
+pub fn make_folder(folder: &Path) -> io::Result<()> {
+    register(|_| fs::create_dir_all(folder))
+}
+
+/// Change what is listed; from [`exit`] on this waits for the end of the process.
+fn register<T>(change: impl FnOnce(&mut BTreeSet<PathBuf>) -> T) -> T {
     let mut unfinished = UNFINISHED.lock().unwrap_or_else(|e| e.into_inner());
-    change(&mut unfinished);
+    change(&mut unfinished)
 }
 
 /// Whether a file's name is that of one that is not whole: what a process that was killed has left.
@@ -97,15 +103,71 @@ pub fn remove_unfinished(folder: &Path) -> io::Result<()> {
     Ok(())
 }
 
+/// Times that a folder is removed in which files may still be written.
+const TRIES: usize = 3;
+
 /// End this process, leaving no file of it unfinished.
 pub fn exit(code: i32) -> ! {
     // Held to the end: nothing new is begun.
     let unfinished = UNFINISHED.lock().unwrap_or_else(|e| e.into_inner());
-    for file in &*unfinished {
-        // It may be whole by now, under its own name.
-        let _ = fs::remove_file(file);
+    for path in &*unfinished {
+        // A file may be whole by now, under its own name. One that was listed before may still come into a folder while that is
+        // removed.
+        let gone = || fs::remove_file(path).or_else(|_| fs::remove_dir_all(path));
+        let _ = (0..TRIES).any(|_| gone().is_ok());
     }
     std::process::exit(code)
+}
+
+/// A new folder for temporary files. It goes when this does, and at [`exit`].
+pub struct Scratch {
+    folder: PathBuf,
+    stays: bool,
+}
+
+impl Scratch {
+    /// A folder where the system has temporary files, named after what it is for.
+    ///
+    /// # Errors
+    /// If it cannot be made; names it.
+    pub fn new(purpose: &str) -> Result<Self, (PathBuf, io::Error)> {
+        let id = std::process::id();
+        let mut number = 0;
+        loop {
+            let folder = std::env::temp_dir().join(format!("sahlab-{purpose}-{id}-{number}"));
+            match fs::create_dir(&folder) {
+                Ok(()) => {
+                    register(|unfinished| unfinished.insert(folder.clone()));
+                    return Ok(Self {
+                        folder,
+                        stays: false,
+                    });
+                }
+                Err(error) if error.kind() == io::ErrorKind::AlreadyExists => number += 1,
+                Err(error) => return Err((folder, error)),
+            }
+        }
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Leave it there.
+    pub fn keep(mut self) {
+        self.stays = true;
+    }
+}
+
+impl Drop for Scratch {
+    fn drop(&mut self) {
+        register(|unfinished| unfinished.remove(&self.folder));
+        if !self.stays {
+            // What cannot be removed is the system's to clear.
+            let _ = fs::remove_dir_all(&self.folder);
+        }
+    }
 }
 
 #[cfg(test)]
@@ -147,6 +209,18 @@ mod tests {
         remove_unfinished(folder.path()).expect("removed");
         assert_eq!(names(folder.path()), ["a.csv"]);
         remove_unfinished(&folder.path().join("none")).expect("nothing to do");
+    }
+
+    #[test]
+    fn a_temporary_folder_goes_unless_it_is_kept() {
+        let one = Scratch::new("test").expect("a folder");
+        let other = Scratch::new("test").expect("a folder");
+        let paths = [one.path().to_path_buf(), other.path().to_path_buf()];
+        fs::write(paths[0].join("a"), "x").expect("written");
+        drop(one);
+        other.keep();
+        assert_eq!(paths.each_ref().map(|path| path.is_dir()), [false, true]);
+        fs::remove_dir(&paths[1]).expect("removed");
     }
 
     #[test]

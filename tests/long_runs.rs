@@ -191,6 +191,43 @@ fn told_to_stop_it_stops_between_two_files() {
 
 #[cfg(unix)]
 #[test]
+fn a_repeated_run_that_is_stopped_leaves_nothing() {
+    let folder = folder(CELLS);
+    validate(folder.path()).arg("--quiet").assert().code(0);
+    let program = assert_cmd::cargo::cargo_bin!("validate");
+    let temporary = folder.path().join("temporary");
+    fs::create_dir(&temporary).unwrap();
+    let run = |arguments: &[&str]| {
+        let mut command = Process::new(program);
+        command.args(arguments).current_dir(folder.path());
+        command.env("TMPDIR", &temporary);
+        command.stdout(Stdio::null()).stderr(Stdio::null());
+        command.spawn().unwrap()
+    };
+    assert!(run(&["archive", "data/e"]).wait().unwrap().success());
+    let replay = ["verify", "archives/e.tar.gz", "--replay", "--threads", "1"];
+    let mut child = run(&replay);
+    let begun = || fs::read_dir(&temporary).unwrap().count() > 0;
+    while !begun() {
+        assert!(child.try_wait().unwrap().is_none(), "ended before it began");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    let mut stop = Process::new("kill");
+    assert!(
+        stop.arg("-INT")
+            .arg(child.id().to_string())
+            .status()
+            .unwrap()
+            .success()
+    );
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!begun(), "something is left");
+    assert!(run(&replay).wait().unwrap().success());
+    assert!(!begun(), "something is left");
+}
+
+#[cfg(unix)]
+#[test]
 fn a_folder_that_cannot_be_written_is_told_before_anything_is_measured() {
     let folder = folder(CELLS);
     // A file where a folder is to be: refused even to those who may write anywhere.

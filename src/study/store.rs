@@ -12,7 +12,7 @@ use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 use thiserror::Error;
 
-use crate::files::{remove_unfinished, write_atomic, write_atomic_with};
+use crate::files::{make_folder, remove_unfinished, write_atomic, write_atomic_with};
 
 use super::identity::digest;
 use super::pieces::PieceTimes;
@@ -146,7 +146,7 @@ impl Store {
         let name = format!("{CELLS}/.lock");
         let path = self.folder.join(&name);
         let wrong = |source| self.wrong(&name, source);
-        fs::create_dir_all(self.folder.join(CELLS)).map_err(wrong)?;
+        make_folder(&self.folder.join(CELLS)).map_err(wrong)?;
         let lock = File::create(path).map_err(wrong)?;
         match lock.try_lock() {
             Err(TryLockError::WouldBlock) => Err(StoreError::Busy {

@@ -1,12 +1,12 @@
 //! Archives of finished runs: writing them, checking them, repeating what they hold.
 
 use std::fs;
-use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result, anyhow, bail};
 use sahlab::REVISION;
-use sahlab::archive::{self, Compared, RunFolders, TOLERANCE, Verified};
+use sahlab::archive::{self, RunFolders, TOLERANCE, Verified};
+use sahlab::files::Scratch;
 use sahlab::scene::Scene;
 use sahlab::study::plan::Overrides;
 use sahlab::study::{self, Plan};
@@ -112,7 +112,18 @@ fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
         }
         return Ok(true);
     }
-    let root = fresh_folder(common.out.as_deref())?;
+    let (root, scratch) = match &common.out {
+        Some(folder) => {
+            make_empty(folder)?;
+            (folder.clone(), None)
+        }
+        None => {
+            let scratch = Scratch::new("replay").map_err(|(folder, error)| {
+                anyhow!("{}: cannot write: {error}", folder.display())
+            })?;
+            (scratch.path().to_path_buf(), Some(scratch))
+        }
+    };
     let anew = Common {
         out: Some(root.clone()),
         // A summary of what is only repeated would hide what matters: whether it came out the same.
@@ -121,17 +132,15 @@ fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
         ..common.clone()
     };
     let compared =
-        run_again(&loaded, &anew).and_then(|()| Ok(archive::compare(file, verified, &root)?));
-    // What differs stays, to be looked at.
-    let differs = |c: &Compared| !c.differences.is_empty();
-    if common.out.is_none() && !compared.as_ref().is_ok_and(differs) {
-        fs::remove_dir_all(&root).with_context(|| format!("{}: cannot remove", root.display()))?;
-    }
-    let compared = compared?;
+        run_again(&loaded, &anew).and_then(|()| Ok(archive::compare(file, verified, &root)?))?;
     let mut text = compared.to_string();
     let (equal, within) = (compared.equal, compared.within.len());
     let (all, others) = (equal + within, compared.differences.len());
     let same = others == 0;
+    if let (false, Some(scratch)) = (same, scratch) {
+        // What differs stays, to be looked at.
+        scratch.keep();
+    }
     text += &match (others, within) {
         (0, 0) => {
             format!("replayed: all {all} files of data equal to the byte; times are only shown\n")
@@ -175,33 +184,16 @@ fn load(file: &Path, name: &str, text: &str, common: &Common) -> Result<(Plan, V
     Ok((plan, scenes))
 }
 
-/// The folder asked for, if nothing is in it, or a new one for temporary files.
-fn fresh_folder(wanted: Option<&Path>) -> Result<PathBuf> {
-    if let Some(folder) = wanted {
-        let unwritable = || format!("{}: cannot write", folder.display());
-        fs::create_dir_all(folder).with_context(unwritable)?;
-        if fs::read_dir(folder)
-            .with_context(unwritable)?
-            .next()
-            .is_some()
-        {
-            bail!(
-                "{}: not empty; name a new folder to repeat the runs in",
-                folder.display()
-            );
-        }
-        return Ok(folder.into());
+/// Make a folder, in which nothing may be yet.
+fn make_empty(folder: &Path) -> Result<()> {
+    let unwritable = || format!("{}: cannot write", folder.display());
+    fs::create_dir_all(folder).with_context(unwritable)?;
+    let mut entries = fs::read_dir(folder).with_context(unwritable)?;
+    if entries.next().is_some() {
+        bail!(
+            "{}: not empty; name a new folder to repeat the runs in",
+            folder.display()
+        );
     }
-    let id = std::process::id();
-    let mut number = 0;
-    loop {
-        let folder = std::env::temp_dir().join(format!("sahlab-replay-{id}-{number}"));
-        match fs::create_dir(&folder) {
-            Ok(()) => return Ok(folder),
-            Err(error) if error.kind() == ErrorKind::AlreadyExists => number += 1,
-            Err(error) => {
-                return Err(error).with_context(|| format!("{}: cannot write", folder.display()));
-            }
-        }
-    }
+    Ok(())
 }

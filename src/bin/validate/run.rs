@@ -2,11 +2,10 @@
 
 use std::collections::HashSet;
 use std::ffi::{OsStr, OsString};
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, anyhow, bail};
-use sahlab::files::remove_unfinished;
+use sahlab::files::{make_folder, remove_unfinished};
 use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
 use sahlab::study::pieces::{Extent, Piece};
@@ -62,7 +61,7 @@ pub fn prepare(plan: &Plan, common: &Common) -> Result<Claim> {
     let [data, plots] = folders(plan, common);
     let claim = Store::open(&data).prepare()?;
     let unwritable = || format!("{}: cannot write", plots.display());
-    fs::create_dir_all(&plots).with_context(unwritable)?;
+    make_folder(&plots).with_context(unwritable)?;
     remove_unfinished(&plots).with_context(unwritable)?;
     Ok(claim)
 }
