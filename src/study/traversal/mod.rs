@@ -95,7 +95,7 @@ fn extent(asked: &Traversal, scene: &Scene) -> Extent {
     let rounds = f64::from(asked.timing.rounds);
     let one = guess::traced(rays) + rounds * guess::timed(timed);
     // The tree, its links and its face trees, in both precisions.
-    let builds = 6.0 * f64::from(asked.timing.builds) * guess::tree(scene.bounds.len());
+    let builds = 2.0 * f64::from(asked.timing.builds) * guess::tree(scene.bounds.len());
     Extent {
         things: 1,
         units: (sets * ways) as u64 + u64::from(asked.timing.rounds),
