@@ -30,9 +30,10 @@ pub fn write_atomic_with(
         _ => Path::new("."),
     };
     make_folder(folder)?;
-    let temporary = folder.join(temporary_name(path));
-    register(|unfinished| unfinished.insert(temporary.clone()));
-    let written = write_whole(&temporary, path, write);
+    let (temporary, mut file) = begin(folder, path)?;
+    let written = write(&mut file)
+        .and_then(|()| file.sync_all())
+        .and_then(|()| fs::rename(&temporary, path));
     if written.is_err() {
         // The first failure is the one to tell.
         let _ = fs::remove_file(&temporary);
@@ -42,25 +43,27 @@ pub fn write_atomic_with(
     sync_folder(folder)
 }
 
-fn write_whole(
-    temporary: &Path,
-    path: &Path,
-    write: impl FnOnce(&mut fs::File) -> io::Result<()>,
-) -> io::Result<()> {
-    let mut file = fs::File::create_new(temporary)?;
-    write(&mut file)?;
-    file.sync_all()?;
-    fs::rename(temporary, path)
-}
-
-/// A name that no other process or thread gives to the same file at the same time.
-fn temporary_name(path: &Path) -> OsString {
+/// A file under a name of its own, and listed, that will be this one.
+fn begin(folder: &Path, path: &Path) -> io::Result<(PathBuf, fs::File)> {
     static WRITTEN: AtomicU64 = AtomicU64::new(0);
-    let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
-    let mut name = OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(format!(".{}-{number}{PART}", std::process::id()));
-    name
+    loop {
+        let number = WRITTEN.fetch_add(1, Ordering::Relaxed);
+        let mut name = OsString::from(".");
+        name.push(path.file_name().unwrap_or_default());
+        name.push(format!(".{}-{number}{PART}", std::process::id()));
+        let temporary = folder.join(name);
+        let made: io::Result<fs::File> = register(|unfinished| {
+            let file = fs::File::create_new(&temporary)?;
+            unfinished.insert(temporary.clone());
+            Ok(file)
+        });
+        match made {
+            Ok(file) => return Ok((temporary, file)),
+            // Left by a process of the same number that was killed, or another machine's.
+            Err(error) if error.kind() == io::ErrorKind::AlreadyExists => {}
+            Err(error) => return Err(error),
+        }
+    }
 }
 
 /// A renamed file outlives a failure of the power only if its folder is on disk as well.
@@ -135,9 +138,13 @@ impl Scratch {
         let mut number = 0;
         loop {
             let folder = std::env::temp_dir().join(format!("sahlab-{purpose}-{id}-{number}"));
-            match fs::create_dir(&folder) {
+            let made: io::Result<()> = register(|unfinished| {
+                fs::create_dir(&folder)?;
+                unfinished.insert(folder.clone());
+                Ok(())
+            });
+            match made {
                 Ok(()) => {
-                    register(|unfinished| unfinished.insert(folder.clone()));
                     return Ok(Self {
                         folder,
                         stays: false,
@@ -198,6 +205,20 @@ mod tests {
         assert_eq!(failed.expect_err("fails").to_string(), "full");
         assert_eq!(fs::read(&path).expect("read"), b"old");
         assert_eq!(names(&folder.path().join("below")), ["a.csv"]);
+    }
+
+    #[test]
+    fn what_another_process_of_this_number_has_left_is_no_matter() {
+        let folder = tempfile::tempdir().expect("a temporary folder");
+        for number in 0..200 {
+            let name = format!(".a.{}-{number}{PART}", std::process::id());
+            fs::write(folder.path().join(name), "left").expect("written");
+        }
+        for text in ["one", "two"] {
+            write_atomic(&folder.path().join("a"), text.as_bytes()).expect("written");
+        }
+        let read = fs::read(folder.path().join("a")).expect("read");
+        assert_eq!((&*read, names(folder.path()).len()), (&b"two"[..], 201));
     }
 
     #[test]

@@ -43,11 +43,13 @@ pub fn run(plans: &[(Plan, Vec<Scene>)], share: Share, common: &Common) -> Resul
         }
         let _claim = store.prepare()?;
         run::measure(plan, scenes, &store, common)?;
-        print(&format!(
-            "{head}{} pieces in {}\n",
-            own.len(),
-            folder.display()
-        ))?;
+        if !common.json {
+            print(&format!(
+                "{head}{} pieces in {}\n",
+                own.len(),
+                folder.display()
+            ))?;
+        }
     }
     Ok(true)
 }
