@@ -35,10 +35,10 @@ def main():
     cache, url, wheel, member = sys.argv[1:]
     document = zipfile.ZipFile(wheel).read(member)
     # The settings and the header are those that the validator asks with: they are part of the cache's key.
-    session = CachedSession(cache, backend="sqlite", expire_after=-1, allowable_methods=("GET",))
-    session.mount("https://", FromMemory(document))
+    cached = CachedSession(cache, backend="sqlite", expire_after=-1, allowable_methods=("GET",))
+    cached.mount("https://", FromMemory(document))
     accepted = "application/ld+json, application/json, */*;q=0.1"
-    session.get(url, headers={"Accept": accepted}).raise_for_status()
+    cached.get(url, headers={"Accept": accepted}).raise_for_status()
 
 
 main()
