@@ -421,6 +421,22 @@ fn tables_and_plots_are_redone_from_data_alone() {
             .code(0);
     }
     assert!(before == contents(&folder.path().join("x/plots")));
+    // From within the folder of data, and from within that of the run.
+    for (within, name) in [("data", "e"), ("data/e", ".")] {
+        fs::remove_file(plots.join("e/report.html")).unwrap();
+        validate(&folder.path().join(within))
+            .args(["report", name])
+            .assert()
+            .code(0);
+        assert!(page == fs::read(plots.join("e/report.html")).unwrap());
+    }
+    // A page links no figure that is not beside it.
+    validate(folder.path())
+        .args(["report", "data/e", "--out", "y"])
+        .assert()
+        .code(0);
+    let alone = fs::read_to_string(folder.path().join("y/plots/e/report.html")).unwrap();
+    assert!(!alone.contains(".svg\""));
     assert!(folder.path().join("x/data/e/tables/cells.md").is_file());
 }
 
@@ -767,6 +783,28 @@ fn bad_scenes_are_refused() {
 #[test]
 fn bad_arguments_are_refused() {
     let folder = with_experiment(GOOD);
+    for (command, flag) in [
+        (&["plots", "data/e", "--seed=3"][..], "--seed"),
+        (&["tables", "data/e", "--quick"], "--quick"),
+        (&["report", "data/e", "--dry-run"], "--dry-run"),
+        (&["list", "--json"], "--json"),
+        (&["verify", "a.tar.gz", "--out=x"], "--out"),
+        (&["verify", "a.tar.gz", "--replay", "--error=1%"], "--error"),
+        (&["archive", "data/e", "--lines=9"], "--lines"),
+        (&["publish", "--force"], "--force"),
+    ] {
+        let told = format!(
+            "leave {flag} away: it means nothing to `validate {}",
+            command[0]
+        );
+        refused(folder.path(), command, &[&told]);
+    }
+    // An experiment that comes with the program needs no file.
+    validate(folder.path())
+        .args(["run", "experiments/traversal.toml", "--quick", "--dry-run"])
+        .assert()
+        .code(0)
+        .stdout(contains("in all: "));
     refused(
         folder.path(),
         &["run", "none.toml"],

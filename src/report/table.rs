@@ -8,7 +8,7 @@ mod terminal;
 
 use std::fmt::Write;
 
-use super::number::{decimals_for, digits_for, fixed, grouped, p_value, signed};
+use super::number::{decimals_for, digits_for, fixed, grouped, p_value, signed, significant};
 
 pub(in crate::report) use terminal::fold;
 
@@ -24,6 +24,8 @@ pub enum Cell {
     Count(u64),
     /// A number shown to this many decimals.
     Value(f64, usize),
+    /// A number shown to so many significant digits.
+    Rounded(f64, usize),
     /// A difference shown with its sign and this many decimals.
     Change(f64, usize),
     /// A difference and half of its interval, to the digits the interval leaves; to two digits where it has none.
@@ -114,6 +116,7 @@ impl Cell {
     fn is_known(&self) -> bool {
         match self {
             Cell::Value(value, _)
+            | Cell::Rounded(value, _)
             | Cell::Change(value, _)
             | Cell::Estimate(value, _)
             | Cell::Measured(value, _)
@@ -129,6 +132,7 @@ impl Cell {
             Cell::Text(text) => text.clone(),
             Cell::Count(count) => grouped(*count),
             Cell::Value(value, decimals) => fixed(*value, *decimals),
+            Cell::Rounded(value, digits) => significant(*value, *digits),
             Cell::Change(value, decimals) => signed(*value, *decimals),
             Cell::Estimate(value, _) => self.with_half(signed, *value, DIGITS[1]),
             Cell::Measured(value, _) => self.with_half(fixed, *value, DIGITS[0]),
@@ -161,6 +165,7 @@ impl Cell {
             Cell::Text(text) => text.clone(),
             Cell::Count(count) => count.to_string(),
             Cell::Value(value, _)
+            | Cell::Rounded(value, _)
             | Cell::Change(value, _)
             | Cell::Estimate(value, _)
             | Cell::Measured(value, _)

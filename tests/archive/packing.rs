@@ -175,6 +175,32 @@ fn what_made_it_and_what_to_do_with_it_is_told() {
 }
 
 #[test]
+fn an_archive_of_other_runs_stays() {
+    let folder = tempdir().unwrap();
+    let here = folder.path().join("a.tar.gz");
+    let pack = |run: &str, more: &[&str]| {
+        let mut command = validate(folder.path());
+        command.arg("archive").arg(runs().join("data").join(run));
+        command.args(["--out", "a.tar.gz"]).args(more).assert()
+    };
+    pack("e", &[]).code(0);
+    let first = fs::read(&here).unwrap();
+    pack("e-quick", &[])
+        .code(2)
+        .stderr(contains("a.tar.gz: there is an archive of e; --force"));
+    assert!(first == fs::read(&here).unwrap());
+    pack("e", &[]).code(0);
+    assert!(first == fs::read(&here).unwrap());
+    pack("e-quick", &["--force"]).code(0);
+    assert!(first != fs::read(&here).unwrap());
+    fs::write(&here, "mine").unwrap();
+    pack("e", &[])
+        .code(2)
+        .stderr(contains("no archive of runs"));
+    assert_eq!(fs::read(&here).unwrap(), b"mine");
+}
+
+#[test]
 fn what_cannot_be_repeated_is_not_archived() {
     let folder = tempdir().unwrap();
     let root = folder.path();
@@ -197,7 +223,7 @@ fn what_cannot_be_repeated_is_not_archived() {
     archive(&["data/e", "data/../data/e"], "packed twice");
     archive(
         &["data"],
-        "no summary.json; expected the folder of a finished run",
+        "not below a folder `data`, so none of figures belongs to it",
     );
     let link = root.join("data/e/link");
     #[cfg(unix)]

@@ -1,5 +1,7 @@
 //! Archives of finished runs: writing them, checking them, repeating what they hold.
 
+use std::collections::BTreeSet;
+use std::ffi::OsString;
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -27,25 +29,52 @@ pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
         print(&lines.collect::<String>())?;
         return Ok(true);
     }
-    let written = match file {
-        Some(file) => {
-            gather(folders, None)?.write(file)?;
-            file.to_path_buf()
-        }
-        None => pack_below(folders, None, common.root())?,
-    };
-    print(&format!("{}\n", written.display()))?;
+    let packed = gather(folders, None)?;
+    let file = file.map_or_else(|| place_below(&packed, common.root()), Path::to_path_buf);
+    if !common.force {
+        check_replaced(&file, folders)?;
+    }
+    packed.write(&file)?;
+    print(&format!("{}\n", file.display()))?;
     Ok(true)
+}
+
+/// An archive may replace one of the same runs; anything else that lies in its place stays.
+fn check_replaced(file: &Path, folders: &[PathBuf]) -> Result<()> {
+    if !file.exists() {
+        return Ok(());
+    }
+    let names = folders.iter().map(|folder| run::name_of(folder));
+    let names: BTreeSet<_> = names.collect::<Result<_>>()?;
+    let what = match archive::verify(file) {
+        Ok(there) => {
+            let there: BTreeSet<_> = there.experiments.keys().map(OsString::from).collect();
+            if there == names {
+                return Ok(());
+            }
+            let there = there.iter().map(|name| name.to_string_lossy());
+            format!("an archive of {}", there.collect::<Vec<_>>().join(", "))
+        }
+        Err(_) => "no archive of runs, or a damaged one".into(),
+    };
+    bail!(
+        "{}: there is {what}; --force replaces it, --out FILE.tar.gz names another file",
+        file.display()
+    )
 }
 
 /// Write `archives/NAME.tar.gz` below a root; gives the file.
 pub fn pack_below(folders: &[PathBuf], name: Option<&str>, root: &Path) -> Result<PathBuf> {
     let packed = gather(folders, name)?;
-    let file = root
-        .join("archives")
-        .join(format!("{}.tar.gz", packed.name()));
+    let file = place_below(&packed, root);
     packed.write(&file)?;
     Ok(file)
+}
+
+/// Where an archive lies below a root, if it is given no place of its own.
+fn place_below(packed: &archive::Packed, root: &Path) -> PathBuf {
+    let name = format!("{}.tar.gz", packed.name());
+    root.join("archives").join(name)
 }
 
 fn is_archive_name(path: &Path) -> bool {
@@ -71,11 +100,6 @@ fn gather(folders: &[PathBuf], name: Option<&str>) -> Result<archive::Packed> {
 
 /// `validate verify`. Says whether all is as it should be.
 pub fn verify(file: &Path, replay: bool, common: &Common) -> Result<bool> {
-    if common.seed.is_some() || common.lines.is_some() || common.quick {
-        bail!(
-            "an archive's runs are repeated as they were; leave --seed, --lines and --quick away"
-        );
-    }
     let verified = archive::verify(file)?;
     let (files, bytes) = verified.size();
     let mut text = String::new();

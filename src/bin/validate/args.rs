@@ -2,6 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
+use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
 use sahlab::study::share::Share;
@@ -55,7 +56,7 @@ pub struct Common {
     /// No progress and no notes on standard error.
     #[arg(long, global = true)]
     pub quiet: bool,
-    /// Measure again what an earlier run has finished.
+    /// Measure again what an earlier run has finished; replace an archive of other runs.
     #[arg(long, global = true)]
     pub force: bool,
     /// Say what would be measured, and write nothing.
@@ -68,6 +69,59 @@ impl Common {
     pub fn root(&self) -> &Path {
         self.out.as_deref().unwrap_or(Path::new("."))
     }
+
+    /// Those of [`RUN_FLAGS`] that are given.
+    fn given(&self) -> impl Iterator<Item = &'static str> {
+        let given = [
+            self.out.is_some(),
+            self.seed.is_some(),
+            self.lines.is_some(),
+            self.error.is_some(),
+            self.quick,
+            self.json,
+            self.force,
+            self.dry_run,
+        ];
+        RUN_FLAGS
+            .into_iter()
+            .zip(given)
+            .filter_map(|(flag, given)| given.then_some(flag))
+    }
+}
+
+/// The common flags that a run heeds; other commands have use for some of them only. (--threads and --quiet are never wrong.)
+const RUN_FLAGS: [&str; 8] = [
+    "--out",
+    "--seed",
+    "--lines",
+    "--error",
+    "--quick",
+    "--json",
+    "--force",
+    "--dry-run",
+];
+
+impl Cli {
+    /// The flags that were given and that the command has no use for, as an error.
+    ///
+    /// # Errors
+    /// If there is one: what is asked for by it would else be passed over in silence.
+    pub fn check(&self) -> Result<()> {
+        let Some(command) = &self.command else {
+            return Ok(());
+        };
+        let (name, heeded) = command.heeds();
+        let others = self.common.given().filter(|flag| !heeded.contains(flag));
+        let others: Vec<&str> = others.collect();
+        match others[..] {
+            [] => Ok(()),
+            [one] => bail!("leave {one} away: it means nothing to `validate {name}`"),
+            _ => bail!(
+                "leave {} away: they mean nothing to `validate {name}`",
+                others.join(", ")
+            ),
+        }
+    }
 }
 
 /// The commands.
@@ -76,7 +130,7 @@ pub enum Command {
     /// Run experiment files; what a stopped run had finished is kept.
     #[command(after_help = examples::RUN)]
     Run {
-        /// Experiment files.
+        /// Experiment files. Those that `validate list experiments` names are known without their files too.
         #[arg(required = true, value_name = "EXPERIMENT.toml")]
         experiments: Vec<PathBuf>,
         /// Only share I of N, into shards/NAME/I-of-N, for `validate merge`; `auto`: as the task of a Slurm job array says.
@@ -126,7 +180,8 @@ pub enum Command {
         /// What these rays ask: `nearest` hit, `any` hit, or `all` (nothing stops them).
         #[arg(long, value_name = "ASK", requires = "rays", default_value = "nearest")]
         ask: sahlab::kd::Ask,
-        /// Write the scene with its camera, lights and materials to this file instead, for other renderers.
+        /// Write the scene with its camera, lights and materials to this file instead, for other renderers; `-` is standard
+        /// output.
         #[arg(long, value_name = "FILE")]
         nff: Option<PathBuf>,
         /// Significant digits of that file: 17 keep every bit, the original programs write 6.
@@ -229,6 +284,32 @@ pub enum Command {
         /// The shell.
         shell: Shell,
     },
+}
+
+impl Command {
+    /// Its name, and which of [`RUN_FLAGS`] it heeds.
+    fn heeds(&self) -> (&'static str, &'static [&'static str]) {
+        match self {
+            Command::Run { .. } => ("run", &RUN_FLAGS),
+            Command::Merge { .. } => ("merge", &["--out", "--json", "--dry-run"]),
+            Command::Plan { .. } => (
+                "plan",
+                &["--out", "--seed", "--lines", "--error", "--quick"],
+            ),
+            Command::Scene { nff: Some(_), .. } => ("scene --nff", &["--dry-run"]),
+            Command::Scene { .. } => ("scene", &RUN_FLAGS),
+            Command::Trace { .. } => ("trace", &["--out", "--json", "--dry-run"]),
+            Command::List { .. } => ("list", &[]),
+            Command::Plots { .. } => ("plots", &["--out"]),
+            Command::Tables { .. } => ("tables", &["--out"]),
+            Command::Report { .. } => ("report", &["--out"]),
+            Command::Archive { .. } => ("archive", &["--out", "--force", "--dry-run"]),
+            Command::Verify { replay: true, .. } => ("verify --replay", &["--out", "--dry-run"]),
+            Command::Verify { .. } => ("verify", &[]),
+            Command::Publish { .. } => ("publish", &["--out"]),
+            Command::Completions { .. } => ("completions", &[]),
+        }
+    }
 }
 
 /// What runs the shards of an experiment.

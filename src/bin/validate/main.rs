@@ -16,7 +16,7 @@ mod trace;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use clap::{CommandFactory, Parser};
 use sahlab::cost::CostModel;
 use sahlab::files::{self, write_atomic};
@@ -127,6 +127,7 @@ const STOPPED: i32 = 130;
 /// Do what was asked; says whether every expectation held.
 fn execute(cli: &Cli) -> Result<bool> {
     let common = &cli.common;
+    cli.check()?;
     let mut pool = rayon::ThreadPoolBuilder::new();
     if let Some(threads) = common.threads {
         pool = pool.num_threads(threads.into());
@@ -138,18 +139,6 @@ fn execute(cli: &Cli) -> Result<bool> {
         error: common.error,
         quick: common.quick,
     };
-    let writes = matches!(
-        cli.command,
-        Some(
-            Command::Plots { .. }
-                | Command::Report { .. }
-                | Command::Tables { .. }
-                | Command::Publish { check: false, .. }
-        )
-    );
-    if common.dry_run && writes {
-        bail!("--dry-run says what would be measured; this command measures nothing");
-    }
     match &cli.command {
         None => {
             let plans = EXPERIMENTS[..DEFAULT].iter().map(|(name, text)| {
@@ -183,7 +172,7 @@ fn execute(cli: &Cli) -> Result<bool> {
         Some(Command::Run { experiments, shard }) => {
             let plans = experiments
                 .iter()
-                .map(|path| Ok::<_, PlanError>((path.clone(), Plan::read(path, overrides)?)));
+                .map(|path| Ok::<_, PlanError>((path.clone(), read_plan(path, overrides)?)));
             let plans = plans.collect::<Result<_, _>>()?;
             match shard {
                 Some(share) => shards::run(&load(plans)?, *share, common),
@@ -196,7 +185,7 @@ fn execute(cli: &Cli) -> Result<bool> {
             shards,
             format,
         }) => {
-            let plan = Plan::read(experiment, overrides)?;
+            let plan = read_plan(experiment, overrides)?;
             let script = shards::script(&plan, experiment, *shards, *format, common)?;
             print(&script)?;
             Ok(true)
@@ -277,6 +266,19 @@ fn execute(cli: &Cli) -> Result<bool> {
     }
 }
 
+/// The plan of an experiment file; of one that comes with the program, where there is no such file.
+fn read_plan(path: &Path, overrides: Overrides) -> Result<Plan, PlanError> {
+    let known = EXPERIMENTS
+        .iter()
+        .find(|(name, _)| Path::new("experiments").join(format!("{name}.toml")) == path);
+    match known {
+        Some((name, text)) if !path.exists() => {
+            Plan::parse(text, &path.display().to_string(), name, overrides)
+        }
+        _ => Plan::read(path, overrides),
+    }
+}
+
 fn run_plans(plans: Vec<(PathBuf, Plan)>, common: &Common) -> Result<bool> {
     run_loaded(&load(plans)?, common, screen::study)
 }
@@ -337,6 +339,9 @@ fn write_nff(spec: &str, file: &Path, digits: u8, common: &Common) -> Result<boo
     if common.dry_run {
         print(&format!("would write {}: {what}\n", file.display()))?;
         return Ok(true);
+    }
+    if file == Path::new("-") {
+        return print(&text).map(|()| true).map_err(Into::into);
     }
     write_atomic(file, text.as_bytes())
         .with_context(|| format!("{}: cannot write", file.display()))?;

@@ -91,8 +91,12 @@ fn spliced(root: &Path) -> Result<Vec<(PathBuf, Spliced)>> {
     find_pages(root, Path::new("docs"), &mut pages)?;
     let splice = |page: PathBuf| {
         let name = page.display().to_string();
-        let text =
-            fs::read_to_string(root.join(&page)).with_context(|| format!("{name}: cannot read"))?;
+        let text = fs::read_to_string(root.join(&page)).with_context(|| {
+            format!(
+                "{}: cannot read; expected the project's own folder, here or in --out",
+                root.join(&page).display()
+            )
+        })?;
         let spliced = splice(&text, root).context(name)?;
         Ok((page, spliced))
     };

@@ -127,7 +127,10 @@ pub fn total(pieces: &[Piece<()>]) -> String {
     let minutes = sum(|extent| extent.seconds) / 60.0;
     let megabytes = sum(|extent| extent.bytes as f64) / 1e6 + REPORTED;
     let time = if minutes < 2.0 {
-        format!("{:.0} seconds", (minutes * 60.0).ceil())
+        match (minutes * 60.0).ceil() {
+            few if few <= 1.0 => "1 second".into(),
+            more => format!("{more:.0} seconds"),
+        }
     } else {
         format!("{minutes:.0} minutes")
     };
@@ -187,16 +190,24 @@ pub fn name_of(data: &Path) -> Result<OsString> {
     name.context("expected the folder of a finished run such as data/validate")
 }
 
-/// The folder of figures that belongs to a data folder: `plots` in place of `data`.
+/// The folder of figures that belongs to a run's folder of data: `plots` in place of the last `data` above it.
 pub fn plots_of(data: &Path) -> Result<PathBuf> {
-    let name = data
-        .file_name()
-        .context("expected a folder such as data/validate")?;
-    let root = data
-        .parent()
-        .and_then(Path::parent)
-        .unwrap_or(Path::new("."));
-    Ok(root.join("plots").join(name))
+    let beside = |data: &Path| {
+        let above = data.parent()?;
+        let place = above.ancestors().find(|at| at.ends_with("data"))?;
+        let below = data.strip_prefix(place).ok()?;
+        Some(place.with_file_name("plots").join(below))
+    };
+    // As it was typed, if that tells; `.` or a bare name does not.
+    let whole = || data.canonicalize().ok();
+    beside(data)
+        .or_else(|| beside(&whole()?))
+        .with_context(|| {
+            format!(
+                "{}: not below a folder `data`, so none of figures belongs to it; expected one such as data/validate",
+                data.display()
+            )
+        })
 }
 
 /// The folder that a command on a finished run puts figures into: the run's own, or one below --out.

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
+use anyhow::{Context, Result};
 use sahlab::kd::{Ask, Rules};
 use sahlab::rays::file;
 use sahlab::report;
@@ -27,9 +27,6 @@ struct Printed<'a> {
 
 /// Trace the rays of a file and write `data/trace/`. Everything wrong with the input is found before anything is written.
 pub fn trace(spec: &str, rays: &Path, ask: Ask, rules: Rules, common: &Common) -> Result<bool> {
-    if common.seed.is_some() || common.lines.is_some() || common.quick {
-        bail!("the rays are those of the file; leave --seed, --lines and --quick away");
-    }
     let casts = file::read(rays)?;
     let scene = Scene::load(spec)?;
     if !common.quiet {

@@ -30,8 +30,9 @@ pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
             &id,
             name,
             &title,
-            &drawn(name, figure, plots)?,
+            &drawn(name, &title, figure, plots)?,
             &figure.caption,
+            plots,
         );
         parts.push((id, title.replace(SUB, "_")));
     }
@@ -40,7 +41,7 @@ pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
         let title = "The scene as traced";
         let alt = "The scene as its camera sees it, and what the rays of every pixel cost";
         let drawn = format!("<img alt=\"{alt}\" src=\"{}\">", embedded(&picture));
-        body += &framed(&id, RENDER, title, &drawn, "");
+        body += &framed(&id, RENDER, title, &drawn, "", plots);
         parts.push((id, title.to_owned()));
     }
     Ok(Section {
@@ -52,9 +53,9 @@ pub fn section(run: &Run, plots: &Path) -> Result<Section, ReportError> {
 }
 
 /// The figure as an element of the page: a drawing, or a PNG where that would be too large.
-fn drawn(name: &str, figure: &Figure, plots: &Path) -> Result<String, ReportError> {
+fn drawn(name: &str, title: &str, figure: &Figure, plots: &Path) -> Result<String, ReportError> {
     let bare = figure.bare();
-    let title = without_subscripts(&figure.title);
+    let title = without_subscripts(title);
     let drawn = svg::element_of_page(&bare, &title);
     if drawn.len() <= LARGEST_DRAWING {
         return Ok(drawn);
@@ -66,20 +67,24 @@ fn drawn(name: &str, figure: &Figure, plots: &Path) -> Result<String, ReportErro
     Ok(format!("<img alt=\"{title}\" src=\"{}\">", embedded(&png)))
 }
 
-/// A picture between its title and its caption, with where it lies as files of its own.
-fn framed(id: &str, name: &str, title: &str, drawn: &str, caption: &str) -> String {
-    let files = ["svg", "png"].map(|extension| {
-        let file = address(&format!("{name}.{extension}"));
+/// A picture between its title and its caption, with its files beside the page, where there are any.
+fn framed(id: &str, name: &str, title: &str, drawn: &str, caption: &str, plots: &Path) -> String {
+    let files = ["svg", "png"].into_iter().filter_map(|extension| {
+        let file = format!("{name}.{extension}");
         let shown = extension.to_uppercase();
-        format!("<a href=\"{file}\">{shown}</a>")
+        let there = plots.join(&file).is_file();
+        there.then(|| format!("<a href=\"{}\">{shown}</a>", address(&file)))
     });
+    let files = match files.collect::<Vec<_>>().join(", ") {
+        none if none.is_empty() => none,
+        links => format!(" <span class=\"files\">{}: {links}</span>", escape(name)),
+    };
     format!(
-        "<figure>\n<h3 id=\"{id}\">{}</h3>\n<div class=\"card\">{drawn}</div>\n\
-         <figcaption>{} <span class=\"files\">{}: {}</span></figcaption>\n</figure>\n",
+        "<figure>\n<h3 id=\"{id}\">{}</h3>\n<div class=\"card\" tabindex=\"0\" role=\"region\" aria-label=\"{}\">{drawn}</div>\n\
+         <figcaption>{}{files}</figcaption>\n</figure>\n",
         with_subscripts(title),
+        escape(&without_subscripts(title)),
         with_subscripts(caption),
-        escape(name),
-        files.join(", ")
     )
 }
 

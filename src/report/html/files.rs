@@ -81,9 +81,14 @@ pub fn again(run: &Run, archived: bool) -> Section {
     );
     if archived {
         body += &format!(
-            "<p>To hand the run on, and to have all of it repeated and compared byte for byte:</p>\n\
-             <pre tabindex=\"0\" role=\"region\" aria-label=\"Commands that archive and repeat the run\">validate archive data/{0}\n\
-             validate verify archives/{0}.tar.gz --replay</pre>\n",
+            "<p>From the experiment that is kept with the data, where the file it was read from is not at hand:</p>\n\
+             <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that repeats the run from its data\">validate run \
+             data/{0}/experiment.toml --out again</pre>\n\
+             <p>To hand the run on, and to have all of it repeated and compared (counts exactly, other figures within 1e-9 of each \
+             other):</p>\n\
+             <pre tabindex=\"0\" role=\"region\" aria-label=\"Commands that archive and repeat the run\">validate archive data/{0} --out \
+             {0}-alone.tar.gz\n\
+             validate verify {0}-alone.tar.gz --replay</pre>\n",
             escape(&name)
         );
     }

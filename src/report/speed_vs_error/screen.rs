@@ -105,7 +105,7 @@ fn short(value: f64) -> Cell {
     } else if value < 1e7 {
         Cell::Count(value.round() as u64)
     } else {
-        text(&significant(value, 2))
+        Cell::Rounded(value, 2)
     }
 }
 

@@ -159,6 +159,11 @@ pub fn averages(part: &Part, measures: &[Measure]) -> Table {
     };
     let row = |strategy: &str, measure: Measure| {
         let mut row = vec![Cell::Text(numbered(strategy)), text(measure.name())];
+        // Against itself the reference is nowhere better or worse.
+        let scene = |name: &str| match strategy == REFERENCE {
+            true => Cell::Missing,
+            false => text(name),
+        };
         match Averages::of(&part.ratios(measure, strategy, REFERENCE)) {
             None => row.extend((0..10).map(|_| Cell::Missing)),
             Some(a) => row.extend([
@@ -169,9 +174,9 @@ pub fn averages(part: &Part, measures: &[Measure]) -> Table {
                 change_of(a.interval.map(|[_, hi]| hi)),
                 change_of(Some(a.median)),
                 change_of(Some(a.best.1)),
-                text(a.best.0),
+                scene(a.best.0),
                 change_of(Some(a.worst.1)),
-                text(a.worst.0),
+                scene(a.worst.0),
             ]),
         }
         row
