@@ -105,7 +105,7 @@ pub fn run(
         Kind::Stability(asked) => stability::run(plan, asked, scenes, store, watcher)?,
         Kind::Traversal(asked) => traversal::run(plan, asked, scenes, store, watcher)?,
     }
-    // Last: what a stopped run leaves is still the record of the one before.
+    // Last: a run that is stopped before this leaves the experiment of the one before beside results that are its own already.
     if let Some(record) = &plan.record {
         store.write(EXPERIMENT, record.recorded(scenes).as_bytes())?;
     }

@@ -70,36 +70,23 @@ impl Common {
         self.out.as_deref().unwrap_or(Path::new("."))
     }
 
-    /// Those of [`RUN_FLAGS`] that are given.
+    /// The flags that are given, but for --threads and --quiet, which are never wrong.
     fn given(&self) -> impl Iterator<Item = &'static str> {
-        let given = [
-            self.out.is_some(),
-            self.seed.is_some(),
-            self.lines.is_some(),
-            self.error.is_some(),
-            self.quick,
-            self.json,
-            self.force,
-            self.dry_run,
+        let flags = [
+            ("--out", self.out.is_some()),
+            ("--seed", self.seed.is_some()),
+            ("--lines", self.lines.is_some()),
+            ("--error", self.error.is_some()),
+            ("--quick", self.quick),
+            ("--json", self.json),
+            ("--force", self.force),
+            ("--dry-run", self.dry_run),
         ];
-        RUN_FLAGS
+        flags
             .into_iter()
-            .zip(given)
             .filter_map(|(flag, given)| given.then_some(flag))
     }
 }
-
-/// The common flags that a run heeds; other commands have use for some of them only. (--threads and --quiet are never wrong.)
-const RUN_FLAGS: [&str; 8] = [
-    "--out",
-    "--seed",
-    "--lines",
-    "--error",
-    "--quick",
-    "--json",
-    "--force",
-    "--dry-run",
-];
 
 impl Cli {
     /// The flags that were given and that the command has no use for, as an error.
@@ -107,10 +94,9 @@ impl Cli {
     /// # Errors
     /// If there is one: what is asked for by it would else be passed over in silence.
     pub fn check(&self) -> Result<()> {
-        let Some(command) = &self.command else {
+        let Some((name, heeded)) = self.command.as_ref().and_then(Command::heeds) else {
             return Ok(());
         };
-        let (name, heeded) = command.heeds();
         let others = self.common.given().filter(|flag| !heeded.contains(flag));
         let others: Vec<&str> = others.collect();
         match others[..] {
@@ -287,17 +273,16 @@ pub enum Command {
 }
 
 impl Command {
-    /// Its name, and which of [`RUN_FLAGS`] it heeds.
-    fn heeds(&self) -> (&'static str, &'static [&'static str]) {
-        match self {
-            Command::Run { .. } => ("run", &RUN_FLAGS),
+    /// Its name and the common flags it heeds; `None` if that is all of them.
+    fn heeds(&self) -> Option<(&'static str, &'static [&'static str])> {
+        let of: (_, &[_]) = match self {
+            Command::Scene { nff: Some(_), .. } => ("scene --nff", &["--dry-run"]),
+            Command::Run { .. } | Command::Scene { .. } => return None,
             Command::Merge { .. } => ("merge", &["--out", "--json", "--dry-run"]),
             Command::Plan { .. } => (
                 "plan",
                 &["--out", "--seed", "--lines", "--error", "--quick"],
             ),
-            Command::Scene { nff: Some(_), .. } => ("scene --nff", &["--dry-run"]),
-            Command::Scene { .. } => ("scene", &RUN_FLAGS),
             Command::Trace { .. } => ("trace", &["--out", "--json", "--dry-run"]),
             Command::List { .. } => ("list", &[]),
             Command::Plots { .. } => ("plots", &["--out"]),
@@ -308,7 +293,8 @@ impl Command {
             Command::Verify { .. } => ("verify", &[]),
             Command::Publish { .. } => ("publish", &["--out"]),
             Command::Completions { .. } => ("completions", &[]),
-        }
+        };
+        Some(of)
     }
 }
 

@@ -142,7 +142,7 @@ fn execute(cli: &Cli) -> Result<bool> {
     match &cli.command {
         None => {
             let plans = EXPERIMENTS[..DEFAULT].iter().map(|(name, text)| {
-                let path = format!("experiments/{name}.toml");
+                let path = file_of(name);
                 let plan = |overrides| Plan::parse(text, &path, name, overrides);
                 let error = None;
                 let plain = plan(Overrides { error, ..overrides })?;
@@ -266,11 +266,16 @@ fn execute(cli: &Cli) -> Result<bool> {
     }
 }
 
+/// The file of an experiment that comes with the program.
+fn file_of(name: &str) -> String {
+    format!("experiments/{name}.toml")
+}
+
 /// The plan of an experiment file; of one that comes with the program, where there is no such file.
 fn read_plan(path: &Path, overrides: Overrides) -> Result<Plan, PlanError> {
     let known = EXPERIMENTS
         .iter()
-        .find(|(name, _)| Path::new("experiments").join(format!("{name}.toml")) == path);
+        .find(|(name, _)| Path::new(&file_of(name)) == path);
     match known {
         Some((name, text)) if !path.exists() => {
             Plan::parse(text, &path.display().to_string(), name, overrides)
@@ -409,7 +414,7 @@ fn list(what: Option<Listed>) -> String {
     };
     let experiments = EXPERIMENTS
         .iter()
-        .map(|(name, text)| (format!("experiments/{name}.toml"), about(text)));
+        .map(|(name, text)| (file_of(name), about(text)));
     section(Listed::Experiments, "experiments", experiments.collect());
     text
 }

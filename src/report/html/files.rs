@@ -67,6 +67,14 @@ fn way(from: &Path, to: &Path) -> Option<String> {
     (up <= 3).then(|| steps.collect::<Vec<_>>().join("/"))
 }
 
+/// Commands, and what they are for.
+fn told(what_for: &str, label: &str, commands: &str) -> String {
+    format!(
+        "<p>{what_for}:</p>\n<pre tabindex=\"0\" role=\"region\" aria-label=\"{label}\">{}</pre>\n",
+        escape(commands)
+    )
+}
+
 /// Commands that repeat the run, `archived` where it keeps the experiment that an archive needs.
 pub fn again(run: &Run, archived: bool) -> Section {
     let name = run.dir.canonicalize().unwrap_or_else(|_| run.dir.clone());
@@ -74,28 +82,29 @@ pub fn again(run: &Run, archived: bool) -> Section {
         .file_name()
         .unwrap_or(OsStr::new("NAME"))
         .to_string_lossy();
-    let mut body = format!(
-        "<p>The same program, seed and scenes give the same data but for seconds, with any number of threads:</p>\n\
-         <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that repeats the run\">{}</pre>\n",
-        escape(&run.summary.command)
+    let mut body = told(
+        "The same program, seed and scenes give the same data but for seconds, with any number of threads",
+        "Command that repeats the run",
+        &run.summary.command,
     );
     if archived {
-        body += &format!(
-            "<p>From the experiment that is kept with the data, where the file it was read from is not at hand:</p>\n\
-             <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that repeats the run from its data\">validate run \
-             data/{0}/experiment.toml --out again</pre>\n\
-             <p>To hand the run on, and to have all of it repeated and compared (counts exactly, other figures within 1e-9 of each \
-             other):</p>\n\
-             <pre tabindex=\"0\" role=\"region\" aria-label=\"Commands that archive and repeat the run\">validate archive data/{0} --out \
-             {0}-alone.tar.gz\n\
-             validate verify {0}-alone.tar.gz --replay</pre>\n",
-            escape(&name)
+        body += &told(
+            "From the experiment that is kept with the data, where the file it was read from is not at hand",
+            "Command that repeats the run from its data",
+            &format!("validate run data/{name}/experiment.toml --out again"),
+        );
+        body += &told(
+            "To hand the run on, and to have all of it repeated and compared (counts exactly, other figures within 1e-9 of each other)",
+            "Commands that archive and repeat the run",
+            &format!(
+                "validate archive data/{name} --out {name}-alone.tar.gz\nvalidate verify {name}-alone.tar.gz --replay"
+            ),
         );
     }
-    body += &format!(
-        "<p>This page alone, from the data:</p>\n\
-         <pre tabindex=\"0\" role=\"region\" aria-label=\"Command that makes this page\">validate report data/{}</pre>\n",
-        escape(&name)
+    body += &told(
+        "This page alone, from the data",
+        "Command that makes this page",
+        &format!("validate report data/{name}"),
     );
     Section {
         id: "again",

@@ -160,9 +160,12 @@ pub fn averages(part: &Part, measures: &[Measure]) -> Table {
     let row = |strategy: &str, measure: Measure| {
         let mut row = vec![Cell::Text(numbered(strategy)), text(measure.name())];
         // Against itself the reference is nowhere better or worse.
-        let scene = |name: &str| match strategy == REFERENCE {
-            true => Cell::Missing,
-            false => text(name),
+        let scene = |name: &str| {
+            if strategy == REFERENCE {
+                Cell::Missing
+            } else {
+                text(name)
+            }
         };
         match Averages::of(&part.ratios(measure, strategy, REFERENCE)) {
             None => row.extend((0..10).map(|_| Cell::Missing)),
