@@ -80,10 +80,10 @@ fn speed_stands_beside_error() {
     plots(
         folder,
         &[
-            "speed-vs-error",
-            "precision",
+            "times-speed-vs-error",
+            "times-precision",
             "precision-offset",
-            "plane-search",
+            "times-plane-search",
             "coverage",
         ],
     );

@@ -86,7 +86,7 @@ pub fn figures(run: &SpeedVsError, summary: &Summary) -> Vec<(String, Figure)> {
     let pages = parts.chunks(PANELS);
     let of = pages.len();
     let page = |(i, parts): (usize, &[Part])| {
-        let name = page_name("speed-vs-error", i);
+        let name = page_name("times-speed-vs-error", i);
         (name, figure(run, parts, &part(i, of), summary))
     };
     pages.enumerate().map(page).collect()

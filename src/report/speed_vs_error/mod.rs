@@ -56,7 +56,7 @@ impl SpeedVsError {
         })
     }
 
-    /// `speed-vs-error`, `precision`, `precision-offset` and `plane-search`, each on as many pages as it takes, and `coverage`:
+    /// `times-speed-vs-error`, `times-precision`, `precision-offset` and `times-plane-search`, each on as many pages as it takes, and `coverage`:
     /// those of the parts that the run has.
     pub(super) fn figures(&self, summary: &Summary) -> Vec<(String, Figure)> {
         let mut all = errors::figures(self, summary);

@@ -72,7 +72,7 @@ pub fn figures(run: &SpeedVsError, summary: &Summary) -> Vec<(String, Figure)> {
     let pages = scenes.chunks(PANELS);
     let of = pages.len();
     let page = |(i, scenes): (usize, &[&str])| {
-        let name = page_name("plane-search", i);
+        let name = page_name("times-plane-search", i);
         (name, figure(run, scenes, &part(i, of), summary))
     };
     pages.enumerate().map(page).collect()

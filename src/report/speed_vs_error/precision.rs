@@ -82,7 +82,13 @@ pub fn figures(run: &SpeedVsError, summary: &Summary) -> Vec<(String, Figure)> {
         .filter(|s| timed(s))
         .collect::<Vec<_>>();
     let of_place = scenes.into_iter().filter(moved).collect::<Vec<_>>();
-    let mut all = pages(run, ("precision", &of_time), &[VISITS, HITS], true, summary);
+    let mut all = pages(
+        run,
+        ("times-precision", &of_time),
+        &[VISITS, HITS],
+        true,
+        summary,
+    );
     let rows = [VISITS, HITS, LARGEST, SLOPE];
     all.extend(pages(
         run,

@@ -111,10 +111,10 @@ fn each_part_may_be_absent() {
         all.into_iter().map(|(name, _)| name).collect()
     };
     let all = [
-        "speed-vs-error",
-        "precision",
+        "times-speed-vs-error",
+        "times-precision",
         "precision-offset",
-        "plane-search",
+        "times-plane-search",
         "coverage",
     ];
     assert_eq!(names(&parts()), all);
@@ -189,7 +189,11 @@ fn strange_rows_stay_on_the_page() {
         .collect();
     assert_eq!(
         names[..3],
-        ["speed-vs-error", "speed-vs-error-2", "speed-vs-error-3"]
+        [
+            "times-speed-vs-error",
+            "times-speed-vs-error-2",
+            "times-speed-vs-error-3"
+        ]
     );
 }
 
