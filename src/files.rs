@@ -9,7 +9,7 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 /// What the name of a file ends in that is not whole yet.
-const PART: &str = ".part";
+pub const PART: &str = ".part";
 
 /// The files that this process is writing, and its folders for temporary files.
 static UNFINISHED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
@@ -88,7 +88,7 @@ fn register<T>(change: impl FnOnce(&mut BTreeSet<PathBuf>) -> T) -> T {
 
 /// Whether a file's name is that of one that is not whole: what a process that was killed has left.
 pub fn is_unfinished(name: &str) -> bool {
-    name.ends_with(PART)
+    name.starts_with('.') && name.ends_with(PART)
 }
 
 /// Remove what a killed process has left unfinished in a folder; nobody else may be writing there. No folder, nothing to do.
@@ -99,7 +99,8 @@ pub fn remove_unfinished(folder: &Path) -> io::Result<()> {
     };
     for entry in entries {
         let entry = entry?;
-        if is_unfinished(&entry.file_name().to_string_lossy()) {
+        let is_file = entry.file_type()?.is_file();
+        if is_file && is_unfinished(&entry.file_name().to_string_lossy()) {
             fs::remove_file(entry.path())?;
         }
     }
@@ -224,11 +225,13 @@ mod tests {
     #[test]
     fn what_was_left_goes() {
         let folder = tempfile::tempdir().expect("a temporary folder");
-        for name in [".a.csv.7-0.part", "a.csv"] {
+        for name in [".a.csv.7-0.part", "a.csv", "own.part"] {
             fs::write(folder.path().join(name), "x").expect("written");
         }
+        fs::create_dir(folder.path().join(".folder.part")).expect("made");
         remove_unfinished(folder.path()).expect("removed");
-        assert_eq!(names(folder.path()), ["a.csv"]);
+        let left = [".folder.part", "a.csv", "own.part"];
+        assert_eq!(names(folder.path()), left);
         remove_unfinished(&folder.path().join("none")).expect("nothing to do");
     }
 

@@ -45,11 +45,12 @@ expect = { family = 0.01 }
 "#;
 
 /// The program at work in a folder, on one thread.
-fn start(folder: &Path) -> Child {
+fn start(folder: &Path, more: &[&str]) -> Child {
     let program = assert_cmd::cargo::cargo_bin!("validate");
     let mut command = Process::new(program);
     command
         .args(["run", "e.toml", "--quiet", "--threads", "1"])
+        .args(more)
         .current_dir(folder)
         .stdout(Stdio::null())
         .stderr(Stdio::piped());
@@ -75,7 +76,7 @@ fn goes_on_after_kills(text: &str, kills: u32, seed: u64) {
     let mut random = ChaCha8Rng::seed_from_u64(seed);
     let mut kept = 0;
     for _ in 0..kills {
-        let mut child = start(killed.path());
+        let mut child = start(killed.path(), &[]);
         // Now and then it gets to its end; then it begins anew.
         std::thread::sleep(took.mul_f64(random.random_range(0.0..0.6)));
         child.kill().unwrap();
@@ -120,10 +121,156 @@ fn killed_at_ten_random_moments_trees_and_pictures_go_on() {
     goes_on_after_kills(TREES, 10, 2);
 }
 
+/// What a run leaves but for what is there to go on from.
+fn results(folder: &Path) -> Vec<(String, Vec<u8>)> {
+    let all = whole(folder).into_iter();
+    all.filter(|(name, _)| !name.contains("/cells/")).collect()
+}
+
+#[test]
+fn of_two_runs_in_turn_none_is_taken_for_finished_that_is_not() {
+    // Few lines: what is stopped here is the writing.
+    let folder = folder(&CELLS.replace("262144", "8192"));
+    let seeds = ["5", "9"];
+    let run = |seed: &str| {
+        validate(folder.path())
+            .args(["--quiet", "--seed", seed])
+            .assert()
+            .code(predicate::in_iter([0, 1]));
+        results(folder.path())
+    };
+    let wanted = seeds.map(run);
+    assert!(wanted[0] != wanted[1]);
+    // All cells of both are there: from now on a run does little but write.
+    let started = Instant::now();
+    run(seeds[0]);
+    let took = started.elapsed();
+    let mut random = ChaCha8Rng::seed_from_u64(3);
+    let (mut sound, mut refused) = (0, 0);
+    for kill in 1..=12 {
+        if kill % 3 == 0 {
+            // One that is stopped leaves its mark until a run comes to its end.
+            run(seeds[kill % 2]);
+        }
+        let mut child = start(folder.path(), &["--seed", seeds[(kill + 1) % 2]]);
+        std::thread::sleep(took.mul_f64(random.random_range(0.0..1.2)));
+        if kill % 12 == 0 {
+            child.wait().unwrap();
+        }
+        child.kill().unwrap();
+        child.wait().unwrap();
+        let ask = |arguments: &[&str]| {
+            let program = assert_cmd::cargo::cargo_bin!("validate");
+            let mut command = Process::new(program);
+            command.current_dir(folder.path()).args(arguments);
+            let ran = command.output().unwrap();
+            (ran.status.code(), String::from_utf8(ran.stderr).unwrap())
+        };
+        let found = results(folder.path());
+        let (code, told) = ask(&["archive", "data/e", "--out", "../e.tar.gz", "--dry-run"]);
+        if code == Some(0) {
+            assert!(wanted.contains(&found), "two runs in one archive");
+            sound += 1;
+            continue;
+        }
+        refused += 1;
+        let stopped = "data/e: a run is writing here, or was stopped before its end; run it again";
+        assert!(code == Some(2) && told.contains(stopped), "{told}");
+        if refused > 1 {
+            continue;
+        }
+        // Nothing else takes it for a run either, or makes it look like one.
+        for command in ["tables", "plots", "report"] {
+            let (code, told) = ask(&[command, "data/e"]);
+            assert!(
+                code == Some(2) && told.contains(stopped),
+                "{command}: {told}"
+            );
+        }
+        let (code, told) = ask(&["publish", "e"]);
+        assert!(
+            code == Some(2) && told.contains("data/e: a run is"),
+            "{told}"
+        );
+        assert!(results(folder.path()) == found);
+    }
+    assert!(sound > 0 && refused > 0, "{sound} {refused}");
+    assert!(run(seeds[1]) == wanted[1]);
+}
+
+#[test]
+fn a_finished_cell_that_was_changed_is_measured_again() {
+    let folder = folder(TREES);
+    let run = || validate(folder.path()).assert().code(0);
+    run();
+    let before = contents(folder.path());
+    let changed = |file: &Path| {
+        let mut bytes = fs::read(file).unwrap();
+        let digit = bytes.iter().rposition(u8::is_ascii_digit).unwrap();
+        bytes[digit] ^= 1;
+        fs::write(file, bytes).unwrap();
+    };
+    let below = |part: &str| {
+        let files = fs::read_dir(folder.path().join("data/e").join(part)).unwrap();
+        let files = files.map(|file| file.unwrap().path());
+        let own = |file: &std::path::PathBuf| !file.ends_with(".lock");
+        files.filter(own).collect::<Vec<_>>()
+    };
+    let all = [below("cells"), below("pictures")].concat();
+    // Two scenes: three trees each, their times, a picture and the costs of its pixels.
+    assert_eq!(all.len(), 2 * (3 + 1 + 2));
+    for file in all {
+        changed(&file);
+        run().stderr(contains("3 of 6 trees were finished by an earlier run"));
+        assert!(contents(folder.path()) == before, "{}", file.display());
+    }
+    run().stderr(contains("6 of 6 trees were finished by an earlier run"));
+    // A pipe, on which reading would wait for ever.
+    #[cfg(unix)]
+    {
+        let cell = &below("cells")[0];
+        fs::remove_file(cell).unwrap();
+        if Process::new("mkfifo")
+            .arg(cell)
+            .status()
+            .is_ok_and(|made| made.success())
+        {
+            run();
+            assert!(contents(folder.path()) == before);
+        }
+    }
+}
+
+/// An archive is not made of a folder in which a run is writing, nor the other way round.
+#[test]
+fn what_is_read_is_not_written() {
+    let folder = folder(CELLS);
+    validate(folder.path()).arg("--quiet").assert().code(0);
+    let busy = "data/e: another process is at work in this folder; wait for it";
+    let ask = |arguments: &[&str]| {
+        let mut command = assert_cmd::Command::cargo_bin("validate").unwrap();
+        command.current_dir(folder.path()).args(arguments);
+        command.assert().code(2).stderr(contains(busy));
+    };
+    let lock = fs::File::create(folder.path().join("data/e/cells/.lock")).unwrap();
+    lock.lock().unwrap();
+    ask(&["archive", "data/e"]);
+    ask(&["publish", "e"]);
+    lock.unlock().unwrap();
+    lock.lock_shared().unwrap();
+    ask(&["run", "e.toml"]);
+    // Many may read.
+    let mut command = assert_cmd::Command::cargo_bin("validate").unwrap();
+    command
+        .current_dir(folder.path())
+        .args(["archive", "data/e"]);
+    command.assert().code(0);
+}
+
 #[test]
 fn two_runs_in_one_folder_are_kept_apart() {
     let folder = folder(CELLS);
-    let mut first = start(folder.path());
+    let mut first = start(folder.path(), &[]);
     let lock = folder.path().join("data/e/cells/.lock");
     while !lock.exists() {
         assert!(first.try_wait().unwrap().is_none(), "ended before it began");
@@ -140,7 +287,7 @@ fn two_runs_in_one_folder_are_kept_apart() {
     let refused = if codes[0] == Some(2) { first } else { second };
     let told = String::from_utf8(refused.stderr).unwrap();
     assert!(
-        told.starts_with("error: ./data/e: another run is writing in this folder; ")
+        told.starts_with("error: ./data/e: another process is at work in this folder; ")
             && told.lines().count() == 1,
         "{told}"
     );
@@ -156,7 +303,7 @@ fn two_runs_in_one_folder_are_kept_apart() {
 fn told_to_stop_it_stops_between_two_files() {
     for signal in ["INT", "TERM"] {
         let folder = folder(CELLS);
-        let mut child = start(folder.path());
+        let mut child = start(folder.path(), &[]);
         let first = |entry: std::io::Result<fs::DirEntry>| {
             entry
                 .unwrap()

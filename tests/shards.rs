@@ -4,12 +4,13 @@
 mod runs;
 
 use std::fs;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
 use predicates::prelude::*;
 use predicates::str::contains;
 use runs::{contents, folder, validate};
+use sahlab::study::identity::digest;
 use tempfile::TempDir;
 
 const CELLS: &str = r#"kind = "hits-vs-area"
@@ -112,24 +113,19 @@ fn gaps_conflicts_and_strangers_are_refused_in_words() {
     fs::rename(shared.join("kept"), shared.join("shards/e")).unwrap();
     refused(
         &["1-of-3", "2-of-3", "3-of-3"],
-        "shards/e/1-of-3: not of the same run as shards/e/2-of-3: of their experiment.toml, line ",
+        "shards/e/1-of-3: not of the same run as shards/e/2-of-3: in their experiment.toml, `options = \"--seed 6\"` (line ",
     );
     fs::remove_dir_all(shared.join("shards/e/2-of-3")).unwrap();
     shard(shared, "2/3", &[]);
 
-    // A result that another shard has otherwise.
+    // A result that another shard has otherwise, though each is as it was written.
     shard(shared, "1/1", &[]);
-    let cells = shared.join("shards/e/1-of-1/cells");
-    let cell = fs::read_dir(&cells)
-        .unwrap()
-        .map(|file| file.unwrap().path());
-    let mut cell = cell.filter(|path| path.display().to_string().ends_with(".nodes.csv"));
-    let cell = cell.next().unwrap();
+    let cell = finished(&shared.join("shards/e/1-of-1"), ".json");
     let sound = fs::read_to_string(&cell).unwrap();
-    fs::write(&cell, sound.replacen('1', "2", 1)).unwrap();
+    fs::write(&cell, forged(&sound)).unwrap();
     let all = ["1-of-3", "2-of-3", "3-of-3", "1-of-1"];
     merge(shared, &all).code(2).stderr(
-        contains(".nodes.csv: differs from shards/e/")
+        contains(".json: differs from shards/e/")
             .and(contains("remove the shard that is wrong and run it again")),
     );
     fs::write(&cell, sound).unwrap();
@@ -144,6 +140,104 @@ fn gaps_conflicts_and_strangers_are_refused_in_words() {
     fs::write(&told, sound).unwrap();
     merge(shared, &all).code(0);
     assert!(made(shared) == made(whole(CELLS).path()));
+}
+
+/// The first finished cell of a run, or what goes with it.
+fn finished(run: &Path, end: &str) -> PathBuf {
+    let files = fs::read_dir(run.join("cells")).unwrap();
+    let name = |file: &PathBuf| file.file_name().unwrap().to_string_lossy().into_owned();
+    let mut files: Vec<_> = files.map(|file| file.unwrap().path()).collect();
+    files.retain(|file| match name(file).split_once('.') {
+        Some((id, rest)) => !id.is_empty() && format!(".{rest}") == end,
+        None => false,
+    });
+    files.sort();
+    files.swap_remove(0)
+}
+
+/// A finished cell that says something else and is whole: only whoever has measured it knows better.
+fn forged(cell: &str) -> String {
+    let (head, content) = cell.split_once("\"content\":").unwrap();
+    let content = content.strip_suffix('}').unwrap();
+    let other = content.replacen("\"hits\":", "\"hits\":1", 1);
+    assert_ne!(content, other);
+    let [old, new] = [content, &other].map(|text| digest(text.as_bytes()));
+    assert!(head.contains(&old));
+    format!("{}\"content\":{other}}}", head.replace(&old, &new))
+}
+
+#[test]
+fn what_is_broken_in_a_shard_is_told_before_anything_is_written() {
+    let shared = folder(CELLS);
+    let shared = shared.path();
+    shard(shared, "1/2", &[]);
+    shard(shared, "2/2", &[]);
+    merge(shared, &["1-of-2", "2-of-2"]).code(0);
+    let before = contents(shared);
+    let one = shared.join("shards/e/1-of-2");
+    let refused = |told: &str| {
+        let before = contents(shared);
+        merge(shared, &["1-of-2", "2-of-2"])
+            .code(2)
+            .stdout("")
+            .stderr(contains(told).and(contains("shards/e/1-of-2")));
+        assert!(contents(shared) == before, "something was written");
+    };
+    let broken = "1 pieces of the run are missing: simple:";
+    let again = "; run --shard 1/2 again, which keeps what is sound";
+    for end in [".json", ".times.json", ".nodes.csv"] {
+        let file = finished(&one, end);
+        let sound = fs::read(&file).unwrap();
+        // One digit, wherever it is.
+        let mut flipped = sound.clone();
+        let digit = flipped.iter().rposition(u8::is_ascii_digit).unwrap();
+        flipped[digit] = b'0' + (flipped[digit] - b'0' + 1) % 10;
+        fs::write(&file, &flipped).unwrap();
+        refused(broken);
+        refused(again);
+        fs::remove_file(&file).unwrap();
+        refused(broken);
+        // A shard that is run again is whole again.
+        shard(shared, "1/2", &[]);
+        merge(shared, &["1-of-2", "2-of-2"]).code(0);
+        assert!(contents(shared) == before, "{end}");
+    }
+
+    let told = one.join("shard.json");
+    let sound = fs::read_to_string(&told).unwrap();
+    for (old, new, message) in [
+        (
+            "\"of\": 2",
+            "\"of\": 5",
+            "its pieces are not those of share 1/5",
+        ),
+        (
+            "\"share\": 1",
+            "\"share\": 2",
+            "its pieces are not those of share 2/2",
+        ),
+        ("\"share\": 1", "\"share\": 7", "there is no share 7/2"),
+        (
+            "\"pieces\"",
+            "\"parts\"",
+            "shard.json: not what a shard has there",
+        ),
+    ] {
+        let other = sound.replace(old, new);
+        assert_ne!(other, sound);
+        fs::write(&told, other).unwrap();
+        refused(message);
+    }
+    fs::write(&told, sound).unwrap();
+    // Files of a user's own are no matter.
+    fs::create_dir(one.join("cells/more")).unwrap();
+    merge(shared, &["1-of-2", "2-of-2"]).code(0);
+
+    // Stopped while it was run again.
+    fs::write(one.join("UNFINISHED"), "").unwrap();
+    refused("a run is writing here, or was stopped before its end");
+    shard(shared, "1/2", &[]);
+    merge(shared, &["1-of-2", "2-of-2"]).code(0);
 }
 
 #[test]
@@ -184,6 +278,17 @@ fn options_are_kept_and_shares_resume() {
     let summary: serde_json::Value = serde_json::from_slice(&told).unwrap();
     assert_eq!(summary["seed"], 9);
     assert!(made(shared) == made(one.path()));
+    // A task that is submitted again knows how many there are only if it is told.
+    let mut again = validate(shared);
+    for (name, value) in [("ID", "2"), ("MIN", "2"), ("MAX", "2"), ("COUNT", "1")] {
+        again.env(format!("SLURM_ARRAY_TASK_{name}"), value);
+    }
+    again.args(["--quick", "--seed", "9", "--shard", "auto/2"]);
+    again
+        .assert()
+        .code(0)
+        .stderr(contains("3 of 3 cells were finished by an earlier run"));
+    again.args(["--shard", "auto"]).assert().code(2);
     // Options would ask for another run.
     command
         .arg("--seed=9")
@@ -193,6 +298,8 @@ fn options_are_kept_and_shares_resume() {
     for (wrong, told) in [
         ("0/3", "there is no share 0/3"),
         ("auto", "SLURM_ARRAY_TASK_ID is not set"),
+        ("auto/3", "SLURM_ARRAY_TASK_ID is not set"),
+        ("auto/x", "expected auto/N"),
         ("x", "expected I/N"),
     ] {
         validate(shared)
@@ -226,7 +333,8 @@ fn scripts_name_what_they_are_given() {
     ]));
     for part in [
         "--array=1-6",
-        "run e.toml --shard auto --threads $threads --quick --seed 3 --out o\"",
+        "threads=${THREADS:-2}\n",
+        "run e.toml --shard auto/6 --threads $threads --quick --seed 3 --out o\"",
         "merge o/shards/e-quick/*-of-6 --out o ||",
     ] {
         assert!(slurm.contains(part), "{part}\n{slurm}");
@@ -246,10 +354,10 @@ fn scripts_name_what_they_are_given() {
             .unwrap();
         assert!(checked.wait().unwrap().success());
     }
-    let snakemake = text(script(&["--format", "snakemake"]));
+    let snakemake = text(script(&["--format", "snakemake", "--threads", "3"]));
     for part in [
         "run e.toml --shard {wildcards.i}/6 --threads {threads}\"",
-        "\"shards/e/{i}-of-6/shard.json\"",
+        "    input:\n        \"e.toml\",\n    output:\n        \"shards/e/{i}-of-6/shard.json\",\n    threads: 3\n",
         "\"data/e/summary.json\"",
     ] {
         assert!(snakemake.contains(part), "{part}\n{snakemake}");

@@ -1,12 +1,23 @@
 //! What the runs claim, and how each claim is checked: `CLAIMS.md`.
 
+use std::collections::BTreeMap;
 use std::fmt::Write;
 
 use super::TOLERANCE;
 use super::gather::Run;
 
+/// What is told of runs beside their own files, by path: what was claimed, and each experiment with every default written out.
+pub(super) fn texts(runs: &[Run]) -> BTreeMap<String, String> {
+    let resolved = runs.iter().map(|run| {
+        let path = format!("resolved/{}.toml", run.name());
+        (path, run.plan.resolved())
+    });
+    let claims = ("CLAIMS.md".into(), text(runs));
+    resolved.chain([claims]).collect()
+}
+
 /// The text of `CLAIMS.md`: a row for each verdict.
-pub(super) fn text(runs: &[Run]) -> String {
+fn text(runs: &[Run]) -> String {
     let mut text = String::from(
         "# Claims\n\nEach row is an expectation that was written down before its run: what came of it, the command that repeats the run from this\n\
          folder, the file that must come out again below `again/`, and the minutes it took (see environment.json for the machines).\n\n\

@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 
-use super::{ArchiveError, Digesting, Facts, is_plain};
+use super::names::{NOT_PLAIN, is_plain};
+use super::{ArchiveError, Digesting, Facts};
 use crate::files::is_unfinished;
 use crate::study::Plan;
 use crate::study::plan::Overrides;
 use crate::study::records::{RunTimes, Summary};
-use crate::study::store::{CELLS, EXPERIMENT, RUN_TIMES};
+use crate::study::store::{CELLS, EXPERIMENT, RUN_TIMES, check_finished};
 
 /// The folders of a finished run.
 pub struct RunFolders {
@@ -45,6 +46,7 @@ impl Run {
     /// Read it.
     pub fn read(folders: &RunFolders) -> Result<Self, ArchiveError> {
         let data = &folders.data;
+        check_finished(data)?;
         let remedy = "expected the folder of a finished run such as data/validate";
         let summary = json(data, "summary.json", remedy)?;
         let (plan, text) = plan(folders)?;
@@ -173,10 +175,11 @@ fn gather(
             .map_err(|source| unreadable(&place, source))?;
         let name = entry.file_name();
         let name = name.to_str().filter(|name| is_plain(name)).ok_or_else(|| {
-            unfit(
-                &place,
-                "the name of a file must be UTF-8 without '\\', ':', '%' and control characters",
-            )
+            let what = format!(
+                "the name of a file must be one on every system: UTF-8 without {NOT_PLAIN}, no device such as 'con', and no \
+                 space or dot at its end"
+            );
+            unfit(&place, &what)
         })?;
         if kind.is_dir() && without == Some(name) || is_unfinished(name) {
             continue;

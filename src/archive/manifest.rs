@@ -3,7 +3,8 @@
 use std::collections::BTreeMap;
 use std::fmt::Write;
 
-use super::{Files, is_plain};
+use super::Files;
+use super::names::is_plain;
 
 /// The manifest of these files.
 pub(super) fn write(files: &Files) -> String {

@@ -31,8 +31,10 @@
 //! let scenes = plan.scenes.iter().map(|name| Scene::load(name)).collect::<Result<Vec<_>, _>>()?;
 //! let folder = tempfile::tempdir()?;
 //! let [data, plots] = ["data", "plots"].map(|part| folder.path().join(part).join(&plan.name));
-//! study::run(&plan, &scenes, &Store::open(&data), &())?;
+//! let store = Store::open(&data);
+//! study::run(&plan, &scenes, &store, &())?;
 //! report::write_plots(&report::read_run(&data)?, &plots)?;
+//! store.finish()?;
 //!
 //! let file = folder.path().join("run.tar.gz");
 //! pack(&[RunFolders { name: plan.name, data, plots }], None)?.write(&file)?;
@@ -56,6 +58,7 @@ mod gzip;
 mod identifier;
 mod manifest;
 mod metadata;
+mod names;
 mod pack;
 mod readme;
 mod replay;
@@ -71,7 +74,7 @@ use std::path::PathBuf;
 use sha2::{Digest, Sha256};
 
 use crate::study::plan::is_folder_name;
-use crate::study::store::TIMINGS;
+use crate::study::store::{TIMINGS, Unfinished};
 
 pub use gather::RunFolders;
 pub use pack::{Packed, pack};
@@ -81,8 +84,8 @@ pub use verify::{Fault, Verified, verify};
 /// The page of a run, beside its figures: it tells where and how long the run was measured.
 const PAGE: &str = "report.html";
 
-/// Whether a file of a run, by its path below `data/RUN/` or `plots/RUN/`, holds times: the only files that differ from run to
-/// run.
+/// Whether a file of a run, by its path below `data/RUN/` or `plots/RUN/`, holds times or shows them: the only files that differ
+/// from run to run.
 pub fn holds_times(path: &str) -> bool {
     let name = path.rsplit('/').next().unwrap_or(path);
     [TIMINGS, PAGE].contains(&name) || name.starts_with("times-") || name.ends_with(".times.json")
@@ -169,6 +172,9 @@ pub enum ArchiveError {
         /// What is wrong, and what would be right.
         what: String,
     },
+    /// A run that is not at its end.
+    #[error(transparent)]
+    Unfinished(#[from] Unfinished),
     /// The variable `SOURCE_DATE_EPOCH` makes no sense.
     #[error("SOURCE_DATE_EPOCH is '{0}', expected whole seconds since 1970, below 2^32")]
     Epoch(String),
@@ -241,39 +247,24 @@ fn header(folder: &str, path: &str, size: u64, mtime: u32) -> Option<tar::Header
     Some(header)
 }
 
-/// Whether a path below the archive's folder is plain: relative, no `.` or `..`, nothing that a terminal, a manifest (in which `%`
-/// begins a code) or another system would read differently.
-fn is_plain(path: &str) -> bool {
-    let plain = |c: char| !c.is_control() && !"\\:%".contains(c);
-    path.chars().all(plain) && path.split('/').all(|part| !matches!(part, "" | "." | ".."))
-}
-
 /// The run of which a file is the experiment's text.
 fn run_of_experiment(path: &str) -> Option<&str> {
     let run = path.strip_prefix("experiments/")?.strip_suffix(".toml")?;
     is_folder_name(run).then_some(run)
 }
 
-/// The run to which a file of data belongs, and its path below the run's folder.
-fn run_of_data(path: &str) -> Option<(&str, &str)> {
-    path.strip_prefix("data/")?.split_once('/')
+/// The folders of a run's files, each with one of its name in it.
+const PARTS: [&str; 2] = ["data", "plots"];
+
+/// The run of which a file is data or a figure, and its path below the run's folder.
+fn run_of(path: &str) -> Option<(&str, &str)> {
+    let (part, below) = path.split_once('/')?;
+    below.split_once('/').filter(|_| PARTS.contains(&part))
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn only_plain_paths() {
-        for path in ["README.md", "data/e/tables/cells.md", "a b", "ä/..x"] {
-            assert!(is_plain(path), "{path}");
-        }
-        for path in [
-            "", "/a", "a/", "a//b", ".", "a/./b", "../a", "a/..", "a\\b", "c:a", "a\nb", "a%2e",
-        ] {
-            assert!(!is_plain(path), "{path}");
-        }
-    }
 
     #[test]
     fn times_are_told_by_their_name() {
@@ -307,7 +298,9 @@ mod tests {
         ] {
             assert_eq!(run_of_experiment(path), None, "{path}");
         }
-        assert_eq!(run_of_data("data/e/tables/x"), Some(("e", "tables/x")));
-        assert_eq!(run_of_data("data/e"), None);
+        assert_eq!(run_of("data/e/tables/x"), Some(("e", "tables/x")));
+        assert_eq!(run_of("plots/e/x.svg"), Some(("e", "x.svg")));
+        assert_eq!(run_of("data/e"), None);
+        assert_eq!(run_of("resolved/e/x"), None);
     }
 }

@@ -7,6 +7,7 @@ use flate2::{Compression, GzBuilder};
 
 use super::date::{self, Moment};
 use super::gather::{Run, RunFolders, Source, Sources, files_of, unfit};
+use super::names::Names;
 use super::{
     ArchiveError, BAG_INFO, BAGIT, Digesting, Facts, Files, LIMITS, MANIFEST, METADATA, PAYLOAD,
     REPLAY, TAG_MANIFEST, bag, claims, environment, header, manifest, metadata, readme, reproduced,
@@ -65,17 +66,19 @@ pub fn pack(runs: &[RunFolders], name: Option<&str>) -> Result<Packed, ArchiveEr
         add(path.into(), text.into());
     }
     for run in &runs {
-        let name = run.name();
-        add(format!("experiments/{name}.toml"), run.text.clone().into());
-        add(format!("resolved/{name}.toml"), run.plan.resolved().into());
+        let path = format!("experiments/{}.toml", run.name());
+        add(path, run.text.clone().into());
     }
-    add("CLAIMS.md".into(), claims::text(&runs).into());
+    for (path, text) in claims::texts(&runs) {
+        add(path, text.into());
+    }
     add("README.md".into(), readme::text(&name, &runs).into());
     add("environment.json".into(), environment::json(&runs));
 
     let mut gathered = Gathered {
         name: &name,
         files: Files::new(),
+        names: Names::default(),
         total: 0,
     };
     let mut entries = Vec::new();
@@ -113,12 +116,15 @@ pub fn pack(runs: &[RunFolders], name: Option<&str>) -> Result<Packed, ArchiveEr
 struct Gathered<'a> {
     name: &'a str,
     files: Files,
+    names: Names,
     total: u64,
 }
 
 impl Gathered<'_> {
     /// One more file, if an archive can hold it.
     fn entry(&mut self, path: String, source: Source) -> Result<Entry, ArchiveError> {
+        let beside = self.names.take(&path);
+        beside.map_err(|what| unfit(&source.place(&path), &what))?;
         let facts = source.facts(&path)?;
         self.total += facts.size;
         // Some that tell of the others follow.

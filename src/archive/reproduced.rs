@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 use serde::{Deserialize, Serialize};
 
 use super::manifest::{digest, digits};
-use super::{Files, PAYLOAD, TOLERANCE, holds_times, run_of_data};
+use super::{Files, PAYLOAD, TOLERANCE, holds_times, run_of};
 
 /// `replay.json`.
 #[derive(Serialize, Deserialize)]
@@ -17,11 +17,11 @@ pub(super) struct Reproduced {
     sha256: BTreeMap<String, String>,
 }
 
-/// The files of data but those that hold times.
+/// The data and figures but those that hold times.
 fn files(files: &Files) -> BTreeMap<&str, [u8; 32]> {
     let below = files.iter().filter_map(|(path, facts)| {
         let path = path.strip_prefix(PAYLOAD)?;
-        let (_, file) = run_of_data(path)?;
+        let (_, file) = run_of(path)?;
         (!holds_times(file)).then_some((path, facts.sha256))
     });
     below.collect()
@@ -47,7 +47,7 @@ pub(super) fn check(json: &[u8], all: &Files) -> Result<(), String> {
     let there = files(all);
     for (path, sha256) in &told.sha256 {
         match there.get(path.as_str()) {
-            None => return Err(format!("{path:?} is no file of data")),
+            None => return Err(format!("{path:?} is no file of a run")),
             Some(found) if digest(sha256) != Some(*found) => {
                 return Err(format!("the digest of {path:?} is another"));
             }

@@ -8,7 +8,7 @@ use std::path::Path;
 use super::walk::walk;
 use super::{
     ArchiveError, BAG_INFO, BAGIT, Files, MANIFEST, METADATA, MOST_KEPT, PAYLOAD, REPLAY,
-    TAG_MANIFEST, TAGS, bag, manifest, metadata, reproduced, run_of_data, run_of_experiment,
+    TAG_MANIFEST, TAGS, bag, manifest, metadata, reproduced, run_of_experiment,
 };
 use crate::study::records::RunTimes;
 use crate::study::store::RUN_TIMES;
@@ -45,8 +45,8 @@ pub struct Verified {
     pub faults: Vec<Fault>,
     /// Text of the experiment of each run, as far as it is text.
     pub experiments: BTreeMap<String, String>,
-    /// Wall seconds that each run took, where they are told.
-    pub(super) seconds: BTreeMap<String, f64>,
+    /// Where and how long each run was measured, where that is told.
+    pub(super) times: BTreeMap<String, RunTimes>,
     pub(super) files: Files,
 }
 
@@ -73,9 +73,8 @@ fn is_read(path: &str) -> bool {
 
 /// The run of which a file tells the times.
 fn run_of_times(below: &str) -> Option<&str> {
-    run_of_data(below)
-        .filter(|(_, file)| *file == RUN_TIMES)
-        .map(|(run, _)| run)
+    let (run, file) = below.strip_prefix("data/")?.split_once('/')?;
+    (file == RUN_TIMES).then_some(run)
 }
 
 /// Check every file of an archive, or of its unpacked folder, against its manifests, its sizes and what else tells of it. Nothing is
@@ -137,9 +136,16 @@ pub fn verify(path: &Path) -> Result<Verified, ArchiveError> {
             )));
         }
         faults = contradictions(&texts, &files);
+        for (file, bytes) in &texts {
+            let below = file.strip_prefix(PAYLOAD).unwrap_or_default();
+            if run_of_experiment(below).is_some() && std::str::from_utf8(bytes).is_err() {
+                let what = "no text, so no experiment".into();
+                faults.push(Fault::Contradicts(file.clone(), what));
+            }
+        }
     }
     let mut experiments = BTreeMap::new();
-    let mut seconds = BTreeMap::new();
+    let mut told = BTreeMap::new();
     for (file, bytes) in texts {
         let below = file.strip_prefix(PAYLOAD).unwrap_or_default();
         if let Some(run) = run_of_experiment(below)
@@ -150,14 +156,14 @@ pub fn verify(path: &Path) -> Result<Verified, ArchiveError> {
         if let Some(run) = run_of_times(below)
             && let Ok(times) = serde_json::from_slice::<RunTimes>(&bytes)
         {
-            seconds.insert(run.to_string(), times.seconds);
+            told.insert(run.to_string(), times);
         }
     }
     Ok(Verified {
         name,
         faults,
         experiments,
-        seconds,
+        times: told,
         files,
     })
 }

@@ -9,11 +9,13 @@ use flate2::bufread::GzDecoder;
 use tar::{EntryType, Header};
 
 use super::gzip::{BLOCK, Capped, OTHERWISE, end, gzip_time};
-use super::{ArchiveError, Digesting, Files, LIMITS, Limits, header, is_plain};
+use super::names::{NOT_PLAIN, Names, is_plain};
+use super::{ArchiveError, Digesting, Files, LIMITS, Limits, header};
 use crate::study::plan::is_folder_name;
 
 /// Bytes of header and padding beside those of a file, at most.
 const HEADER: u64 = 1024;
+
 /// Go through the files of an archive in their order, or of its folder. `visit` may read a file's bytes, all or some. What has been
 /// read is in `files`, even where the rest cannot be. Gives the folder's name.
 pub(super) fn walk(
@@ -42,6 +44,7 @@ fn walk_within(
     let mut taker = Taker {
         limits,
         files,
+        names: Names::default(),
         total: 0,
         visit,
     };
@@ -68,6 +71,7 @@ fn walk_within(
 struct Taker<'a, V> {
     limits: &'a Limits,
     files: &'a mut Files,
+    names: Names,
     total: u64,
     visit: V,
 }
@@ -75,6 +79,10 @@ struct Taker<'a, V> {
 impl<V: FnMut(&str, &mut dyn Read) -> io::Result<()>> Taker<'_, V> {
     /// Take a file of so many bytes, if that is not too much.
     fn take(&mut self, below: &str, size: u64, reader: impl Read) -> Result<(), String> {
+        if self.files.contains_key(below) {
+            return Err(format!("{below:?} is there twice"));
+        }
+        self.names.take(below)?;
         self.total = size.saturating_add(self.total);
         let limits = self.limits;
         if limits.are_passed(self.files.len() + 1, size, self.total) {
@@ -89,9 +97,7 @@ impl<V: FnMut(&str, &mut dyn Read) -> io::Result<()>> Taker<'_, V> {
         if facts.size != size {
             return Err(format!("damaged: it ends within {below:?}"));
         }
-        if self.files.insert(below.to_string(), facts).is_some() {
-            return Err(format!("{below:?} is there twice"));
-        }
+        self.files.insert(below.to_string(), facts);
         Ok(())
     }
 
@@ -196,7 +202,9 @@ fn no_file(path: &str, kind: &str) -> String {
 }
 
 fn wrong_path(path: &str) -> String {
-    format!("{path:?} is no path of the form FOLDER/FILE without '..', '\\', ':' and '%'")
+    format!(
+        "{path:?} is no path of the form FOLDER/FILE without '..', {NOT_PLAIN}, devices, and names that end in a space or dot"
+    )
 }
 
 #[cfg(test)]

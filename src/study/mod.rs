@@ -82,7 +82,7 @@ fn list(missing: &[(String, String)]) -> String {
 }
 
 /// Run a plan over its scenes, in its order, and write its files but for tables; where the store takes a share of the pieces, only
-/// these.
+/// these. A whole run is not finished before [`Store::finish`], which goes after its tables and figures.
 ///
 /// # Errors
 /// If a file cannot be written, or if the program contradicts itself; and, where the store takes only what is there, if a piece
@@ -93,26 +93,37 @@ pub fn run(
     store: &Store,
     watcher: &impl Watcher,
 ) -> Result<(), RunError> {
-    match &plan.kind {
-        Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher)?,
-        Kind::Strategies(asked) | Kind::Termination(asked) => {
-            strategies::run(plan, asked, scenes, store, watcher)?;
-        }
-        Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher)?,
-        Kind::CostVsWork(asked) => cost_vs_work::run(plan, asked, scenes, store, watcher)?,
-        Kind::Assumptions(asked) => assumptions::run(plan, asked, scenes, store, watcher)?,
-        Kind::SpeedVsError(asked) => speed_vs_error::run(plan, asked, scenes, store, watcher)?,
-        Kind::Stability(asked) => stability::run(plan, asked, scenes, store, watcher)?,
-        Kind::Traversal(asked) => traversal::run(plan, asked, scenes, store, watcher)?,
-    }
-    // Last: a run that is stopped before this leaves the experiment of the one before beside results that are its own already.
+    store.begin()?;
     if let Some(record) = &plan.record {
         store.write(EXPERIMENT, record.recorded(scenes).as_bytes())?;
     }
+    measure(plan, scenes, store, watcher)?;
     if let Some(share) = store.share() {
-        shards::finish(store, share, &pieces(plan, scenes))?;
+        shards::write_contents(store, share, &pieces(plan, scenes))?;
+        store.finish()?;
     }
     Ok(())
+}
+
+/// Measure the pieces that the store has not, and write the files that are put together from all of them.
+fn measure(
+    plan: &Plan,
+    scenes: &[Scene],
+    store: &Store,
+    watcher: &impl Watcher,
+) -> Result<(), RunError> {
+    match &plan.kind {
+        Kind::HitsVsArea(asked) => hits::run(plan, asked, scenes, store, watcher),
+        Kind::Strategies(asked) | Kind::Termination(asked) => {
+            strategies::run(plan, asked, scenes, store, watcher)
+        }
+        Kind::SplitCost(asked) => split_cost::run(plan, asked, scenes, store, watcher),
+        Kind::CostVsWork(asked) => cost_vs_work::run(plan, asked, scenes, store, watcher),
+        Kind::Assumptions(asked) => assumptions::run(plan, asked, scenes, store, watcher),
+        Kind::SpeedVsError(asked) => speed_vs_error::run(plan, asked, scenes, store, watcher),
+        Kind::Stability(asked) => stability::run(plan, asked, scenes, store, watcher),
+        Kind::Traversal(asked) => traversal::run(plan, asked, scenes, store, watcher),
+    }
 }
 
 /// The pieces of a run, in their canonical order.

@@ -13,8 +13,8 @@ use crate::scene::Scene;
 
 use super::pieces::{Piece, own_share};
 use super::share::Share;
-use super::store::{CELLS, EXPERIMENT, PICTURES, Store, StoreError};
-use super::{Plan, REVISION, SCHEMA};
+use super::store::{CELLS, EXPERIMENT, PICTURES, Store, StoreError, Unfinished, check_finished};
+use super::{Plan, REVISION, RunError, SCHEMA};
 
 /// The file that says that a shard is finished, and what is in it.
 pub const SHARD: &str = "shard.json";
@@ -50,6 +50,9 @@ pub enum MergeError {
         /// What is wrong, and what would be right.
         what: String,
     },
+    /// A shard whose run is not at its end.
+    #[error(transparent)]
+    Unfinished(#[from] Unfinished),
     /// Some pieces are in none of the shards.
     #[error("{0}")]
     Gaps(String),
@@ -58,8 +61,8 @@ pub enum MergeError {
     Store(#[from] StoreError),
 }
 
-/// Say that a share of a run is finished.
-pub(super) fn finish<P>(
+/// Say what is in a share of a run, which is finished but for its mark.
+pub(super) fn write_contents<P>(
     store: &Store,
     share: Share,
     pieces: &[Piece<P>],
@@ -91,6 +94,7 @@ impl Shards {
         let mut experiment: Option<(&Path, String)> = None;
         let mut read = Vec::new();
         for folder in folders {
+            check_finished(folder)?;
             let contents = contents(folder)?;
             let path = folder.join(EXPERIMENT);
             let text = fs::read_to_string(&path).map_err(|source| unreadable(&path, source))?;
@@ -110,12 +114,34 @@ impl Shards {
         })
     }
 
-    /// Whether all pieces of the run are there.
+    /// Whether all pieces of the run are there, each as it was measured. Nothing is written.
     ///
     /// # Errors
-    /// If some are not: tells which, and which shares have them.
-    pub fn check_complete(&self, plan: &Plan, scenes: &[Scene]) -> Result<(), MergeError> {
+    /// If a shard is not the share it says, if some of its pieces are missing or damaged, if two shards have different results
+    /// of one piece, or if some pieces are in no shard: tells which, and which shares have them.
+    pub fn check(&self, plan: &Plan, scenes: &[Scene]) -> Result<(), MergeError> {
         let pieces = super::pieces(plan, scenes);
+        for (folder, contents) in &self.folders {
+            contents.check(folder, &pieces)?;
+            let share = contents.share(folder)?;
+            let store = Store::open(folder).complete().sharing(Some(share));
+            // There is nothing to measure: each piece is read, or missed.
+            match super::measure(plan, scenes, &store, &()) {
+                Ok(()) => {}
+                Err(RunError::Store(error)) => return Err(error.into()),
+                Err(error) => {
+                    let what = format!(
+                        "{error}, or not as they were written; run --shard {share} again, which keeps what is sound"
+                    );
+                    return Err(unfit(folder, what));
+                }
+            }
+        }
+        self.files()?;
+        self.check_gaps(&pieces)
+    }
+
+    fn check_gaps<P>(&self, pieces: &[Piece<P>]) -> Result<(), MergeError> {
         let there = |id: &String| self.folders.iter().any(|(_, c)| c.pieces.contains(id));
         let missing = pieces.iter().enumerate();
         let missing: Vec<_> = missing.filter(|(_, piece)| !there(&piece.id)).collect();
@@ -140,9 +166,23 @@ impl Shards {
     /// Copy all finished pieces into the run's folder.
     ///
     /// # Errors
-    /// If two shards have different results of one piece, or if a file cannot be read or written; the first is found before
-    /// anything is written.
+    /// If a file cannot be read or written.
     pub fn copy(&self, into: &Store) -> Result<(), MergeError> {
+        let files = self.files()?;
+        // Times last, as they say that a piece is finished.
+        let (times, others): (Vec<_>, Vec<_>) =
+            files.iter().partition(|(name, _)| name.ends_with(TIMES));
+        for (name, path) in others.into_iter().chain(times) {
+            into.write(name, &read(path)?)?;
+        }
+        Ok(())
+    }
+
+    /// The files of all results, by their name in a run's folder.
+    ///
+    /// # Errors
+    /// If two shards have different results of one piece, or if a file cannot be read.
+    fn files(&self) -> Result<BTreeMap<String, PathBuf>, MergeError> {
         let mut files: BTreeMap<String, PathBuf> = BTreeMap::new();
         for (folder, _) in &self.folders {
             for (name, path) in results(folder)? {
@@ -160,13 +200,26 @@ impl Shards {
                 }
             }
         }
-        // Times last, as they say that a piece is finished.
-        let (times, others): (Vec<_>, Vec<_>) =
-            files.iter().partition(|(name, _)| name.ends_with(TIMES));
-        for (name, path) in others.into_iter().chain(times) {
-            into.write(name, &read(path)?)?;
+        Ok(files)
+    }
+}
+
+impl Contents {
+    /// The share it says to be.
+    fn share(&self, folder: &Path) -> Result<Share, MergeError> {
+        let share = Share::new(self.share, self.of);
+        share.map_err(|what| unfit(&folder.join(SHARD), what))
+    }
+
+    /// Whether its pieces are those of its share of the run.
+    fn check<P>(&self, folder: &Path, pieces: &[Piece<P>]) -> Result<(), MergeError> {
+        let share = self.share(folder)?;
+        let own = pieces.iter().enumerate().filter(|(n, _)| share.has(*n));
+        if own.map(|(_, piece)| &piece.id).eq(&self.pieces) {
+            return Ok(());
         }
-        Ok(())
+        let what = format!("its pieces are not those of share {share}; run that share again");
+        Err(unfit(&folder.join(SHARD), what))
     }
 }
 
@@ -200,16 +253,24 @@ fn same_run(first: &Path, wanted: &str, folder: &Path, text: &str) -> Result<(),
     if wanted == text {
         return Ok(());
     }
-    let lines = wanted.lines().zip(text.lines());
-    let differing = lines.enumerate().find(|(_, (a, b))| a != b);
-    let told = differing.map_or_else(
-        || "one is longer".into(),
-        |(number, (a, b))| format!("line {} is `{b}` there and `{a}` here", number + 1),
+    // One may have a line more than the other: named is what the one says and the other does not.
+    let only = |text: &str, other: &str| {
+        let mut lines = text.lines().enumerate();
+        lines
+            .find(|(_, line)| !other.lines().any(|l| l == *line))
+            .map_or("nothing more".into(), |(number, line)| {
+                format!("`{line}` (line {})", number + 1)
+            })
+    };
+    let told = format!(
+        "{} there and {} here",
+        only(text, wanted),
+        only(wanted, text)
     );
     Err(unfit(
         first,
         format!(
-            "not of the same run as {}: of their {EXPERIMENT}, {told}; shards must have the same experiment, seed and options",
+            "not of the same run as {}: in their {EXPERIMENT}, {told}; shards must have the same experiment, seed and options",
             folder.display()
         ),
     ))
@@ -227,7 +288,8 @@ fn results(shard: &Path) -> Result<Vec<(String, PathBuf)>, MergeError> {
         for entry in entries {
             let entry = entry.map_err(|source| unreadable(&folder, source))?;
             let name = entry.file_name().to_string_lossy().into_owned();
-            if !name.starts_with('.') {
+            // Nothing else is of the program's making.
+            if !name.starts_with('.') && entry.path().is_file() {
                 files.push((format!("{below}/{name}"), entry.path()));
             }
         }

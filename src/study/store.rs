@@ -10,6 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
+use serde_json::value::{RawValue, to_raw_value};
 use thiserror::Error;
 
 use crate::files::{make_folder, remove_unfinished, write_atomic, write_atomic_with};
@@ -32,7 +33,7 @@ pub enum StoreError {
     },
     /// Another process writes there.
     #[error(
-        "{path}: another run is writing in this folder; wait for it to end, or give another --out",
+        "{path}: another process is at work in this folder; wait for it to end, or take another folder",
         path = path.display()
     )]
     Busy {
@@ -40,6 +41,14 @@ pub enum StoreError {
         path: PathBuf,
     },
 }
+
+/// A folder that is no finished run, though it may hold the files of one: some are of this run and some of the one before.
+#[derive(Debug, Error)]
+#[error(
+    "{folder}: a run is writing here, or was stopped before its end; run it again, which goes on where it was",
+    folder = .0.display()
+)]
+pub struct Unfinished(pub PathBuf);
 
 /// The data folder of one experiment.
 pub struct Store {
@@ -76,18 +85,51 @@ pub const RUN_TIMES: &str = "times-run.json";
 /// The folder of finished cells.
 pub const CELLS: &str = "cells";
 
+/// The file in it by which processes are kept apart.
+const LOCK: &str = ".lock";
+
 /// The folder of pictures that a run keeps as data.
 pub const PICTURES: &str = "pictures";
 
 /// The file that has the experiment's text and how it was run.
 pub const EXPERIMENT: &str = "experiment.toml";
 
-/// A finished cell on disk, with the program that made it: another program's cells are made anew.
+/// The file that is there while the others of a run are written, and stays when that is stopped.
+pub const UNFINISHED: &str = "UNFINISHED";
+
+/// What it says to whoever finds it.
+const UNFINISHED_TEXT: &str = "\
+A run is writing here, or was stopped before its end: some files may be of another run. The same command finishes it.
+";
+
+/// What is kept of a finished piece, with the program that made it and a digest of its text: what another program has made, or
+/// what is not as it was written, is made anew.
 #[derive(Serialize, Deserialize)]
-struct Finished<T> {
+struct Kept {
     revision: String,
     id: String,
-    result: T,
+    sha256: String,
+    content: Box<RawValue>,
+}
+
+impl Kept {
+    fn new<T: Serialize>(id: &str, content: &T) -> Self {
+        let content = to_raw_value(content).expect("records are plain data");
+        Self {
+            revision: crate::REVISION.into(),
+            id: id.into(),
+            sha256: digest(content.get().as_bytes()),
+            content,
+        }
+    }
+
+    /// What was kept, if it is this, by this very program.
+    fn content<T: DeserializeOwned>(&self, id: &str) -> Option<T> {
+        let text = self.content.get();
+        let own = self.revision == crate::REVISION && self.id == id;
+        let whole = own && self.sha256 == digest(text.as_bytes());
+        whole.then(|| serde_json::from_str(text).ok())?
+    }
 }
 
 impl Store {
@@ -142,19 +184,24 @@ impl Store {
         Ok(claim)
     }
 
+    /// Say that the folder holds no finished run, until [`finish`](Self::finish): goes before all that a run writes.
+    pub fn begin(&self) -> Result<(), StoreError> {
+        self.write(UNFINISHED, UNFINISHED_TEXT.as_bytes())
+    }
+
+    /// Say that the folder holds a finished run: goes after all that is written of it, figures and tables too.
+    pub fn finish(&self) -> Result<(), StoreError> {
+        self.remove(UNFINISHED)
+    }
+
     fn claim(&self) -> Result<Claim, StoreError> {
-        let name = format!("{CELLS}/.lock");
+        let name = format!("{CELLS}/{LOCK}");
         let path = self.folder.join(&name);
         let wrong = |source| self.wrong(&name, source);
         make_folder(&self.folder.join(CELLS)).map_err(wrong)?;
         let lock = File::create(path).map_err(wrong)?;
-        match lock.try_lock() {
-            Err(TryLockError::WouldBlock) => Err(StoreError::Busy {
-                path: self.folder.clone(),
-            }),
-            // Some file systems know no locks; there it is the user's to keep runs apart.
-            Ok(()) | Err(TryLockError::Error(_)) => Ok(Claim { _lock: lock }),
-        }
+        let locked = lock.try_lock();
+        claimed(&self.folder, lock, locked)
     }
 
     fn wrong(&self, name: &str, source: io::Error) -> StoreError {
@@ -166,14 +213,12 @@ impl Store {
 
     /// A finished cell of this very program; `None` if it must be measured.
     pub fn finished<T: DeserializeOwned>(&self, id: &str) -> Option<T> {
-        let found: Finished<T> = self.read_json(&cell_file(id))?;
-        (found.revision == crate::REVISION && found.id == id).then_some(found.result)
+        self.kept(&cell_file(id), id)
     }
 
     /// The times of a finished piece, by this very program.
     pub fn times<T: DeserializeOwned>(&self, id: &str) -> Option<PieceTimes<T>> {
-        let found: PieceTimes<T> = self.read_json(&times_file(id))?;
-        (found.machine.revision == crate::REVISION).then_some(found)
+        self.kept(&times_file(id), id)
     }
 
     /// Keep the times of a piece: the last of it that is written.
@@ -182,27 +227,32 @@ impl Store {
         id: &str,
         times: &PieceTimes<T>,
     ) -> Result<(), StoreError> {
-        self.write_json(&times_file(id), times)
+        self.keep(&times_file(id), id, times)
     }
 
-    /// What an earlier run has left in a file, if it may be taken.
-    fn read_json<T: DeserializeOwned>(&self, name: &str) -> Option<T> {
+    /// What an earlier run has kept in a file, if it may be taken.
+    fn kept<T: DeserializeOwned>(&self, name: &str, id: &str) -> Option<T> {
         if self.cells == Cells::Forgotten {
             return None;
         }
-        let text = fs::read_to_string(self.folder.join(name)).ok()?;
-        serde_json::from_str(&text).ok()
+        let kept: Kept = serde_json::from_slice(&self.read(name)?).ok()?;
+        kept.content(id)
+    }
+
+    fn keep<T: Serialize>(&self, name: &str, id: &str, content: &T) -> Result<(), StoreError> {
+        let json = serde_json::to_vec(&Kept::new(id, content)).expect("records are plain data");
+        self.write(name, &json)
+    }
+
+    /// What is in a file; nothing in what is no file, such as a pipe, on which reading would wait.
+    fn read(&self, name: &str) -> Option<Vec<u8>> {
+        let path = self.folder.join(name);
+        path.is_file().then(|| fs::read(path).ok())?
     }
 
     /// Keep a finished cell.
     pub fn save<T: Serialize>(&self, id: &str, result: &T) -> Result<(), StoreError> {
-        let finished = Finished {
-            revision: crate::REVISION.into(),
-            id: id.into(),
-            result,
-        };
-        let json = serde_json::to_vec(&finished).expect("records are plain data");
-        self.write(&cell_file(id), &json)
+        self.keep(&cell_file(id), id, result)
     }
 
     /// Write a file of rows; gives its digest.
@@ -216,8 +266,7 @@ impl Store {
             writer.serialize(row).expect("records are flat");
         }
         let bytes = writer.into_inner().expect("writing to memory");
-        self.write(name, &bytes)?;
-        Ok(digest(&bytes))
+        self.write_digested(name, &bytes)
     }
 
     /// The rows of a file, if it can be read; with a digest given, only those it was made of.
@@ -226,7 +275,7 @@ impl Store {
         name: &str,
         wanted: Option<&str>,
     ) -> Option<Vec<T>> {
-        let bytes = fs::read(self.folder.join(name)).ok()?;
+        let bytes = self.read(name)?;
         if wanted.is_some_and(|wanted| wanted != digest(&bytes)) {
             return None;
         }
@@ -234,9 +283,10 @@ impl Store {
         reader.deserialize().collect::<Result<_, _>>().ok()
     }
 
-    /// Whether a file of the run is there.
-    pub fn has(&self, name: &str) -> bool {
-        self.folder.join(name).is_file()
+    /// Whether a file of the run has this digest.
+    pub fn has(&self, name: &str, sha256: &str) -> bool {
+        self.read(name)
+            .is_some_and(|bytes| digest(&bytes) == sha256)
     }
 
     /// Write the summary.
@@ -272,10 +322,50 @@ impl Store {
         }
     }
 
+    /// Write a file that goes with a cell; gives its digest.
+    pub fn write_digested(&self, name: &str, bytes: &[u8]) -> Result<String, StoreError> {
+        self.write(name, bytes)?;
+        Ok(digest(bytes))
+    }
+
     /// Write a file of the run.
     pub fn write(&self, name: &str, bytes: &[u8]) -> Result<(), StoreError> {
         let path = self.folder.join(name);
         write_atomic(&path, bytes).map_err(|source| StoreError::Write { path, source })
+    }
+}
+
+/// Whether all files in a folder are of one run, which has come to its end.
+///
+/// # Errors
+/// If a run is writing there, or was stopped.
+pub fn check_finished(folder: &Path) -> Result<(), Unfinished> {
+    match folder.join(UNFINISHED).exists() {
+        true => Err(Unfinished(folder.into())),
+        false => Ok(()),
+    }
+}
+
+/// Keep runs from writing in a folder while it is read. `None` where none could resume: what is there is a copy.
+pub fn hold(folder: &Path) -> Result<Option<Claim>, StoreError> {
+    let Ok(lock) = File::open(folder.join(CELLS).join(LOCK)) else {
+        return Ok(None);
+    };
+    let locked = lock.try_lock_shared();
+    claimed(folder, lock, locked).map(Some)
+}
+
+fn claimed(
+    folder: &Path,
+    lock: File,
+    locked: Result<(), TryLockError>,
+) -> Result<Claim, StoreError> {
+    match locked {
+        Err(TryLockError::WouldBlock) => Err(StoreError::Busy {
+            path: folder.into(),
+        }),
+        // Some file systems know no locks; there it is the user's to keep runs apart.
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(Claim { _lock: lock }),
     }
 }
 
@@ -332,6 +422,7 @@ mod tests {
             TIMINGS,
             RUN_TIMES,
             "shard.json",
+            UNFINISHED,
             "summary.json",
             EXPERIMENT,
             "tables/",
@@ -349,10 +440,21 @@ mod tests {
         assert_eq!(store.finished::<u32>("a"), Some(7));
         assert_eq!(store.finished::<u32>("b"), None);
         let path = folder.path().join("cells/a.json");
-        let other = fs::read_to_string(&path).expect("read");
-        fs::write(&path, other.replace(crate::REVISION, "another")).expect("written");
-        assert_eq!(store.finished::<u32>("a"), None);
-        store.save("a", &7).expect("written");
+        let own = fs::read_to_string(&path).expect("read");
+        let others = [
+            own.replace(crate::REVISION, "another"),
+            own.replace(r#""id":"a""#, r#""id":"b""#),
+            // A result that nobody found.
+            own.replace(":7}", ":8}"),
+            own.replace(":7}", ":7 }"),
+        ];
+        for other in &others[..3] {
+            assert_ne!(*other, own);
+            fs::write(&path, other).expect("written");
+            assert_eq!(store.finished::<u32>("a"), None, "{other}");
+        }
+        fs::write(&path, &others[3]).expect("written");
+        assert_eq!(store.finished::<u32>("a"), Some(7));
         assert_eq!(store.forgetful().finished::<u32>("a"), None);
     }
 }

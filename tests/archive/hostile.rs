@@ -74,6 +74,29 @@ fn hostile_archives_are_refused() {
     }
     with(&[("a/x", regular), ("a/x", regular)], "there twice");
     with(&[("a/x", regular), ("b/x", regular)], "two folders");
+    // What would be one file, or a device, on some system.
+    for path in [
+        "a/x?",
+        "a/CON",
+        "a/b/nul.txt",
+        "a/x.",
+        "a/\u{202e}gvs.x",
+        "a/x\u{200b}",
+    ] {
+        with(&[(path, regular)], "is no path of the form FOLDER/FILE");
+    }
+    for (one, other) in [
+        ("a/x", "a/X"),
+        ("a/\u{212b}", "a/\u{c5}"),
+        ("a/p", "a/p/x"),
+        ("a/p/x", "a/p"),
+        ("a/p/x", "a/P/y"),
+    ] {
+        with(
+            &[(one, regular), (other, regular)],
+            "cannot be unpacked side by side",
+        );
+    }
     with(&[("a/x", regular)], "no manifest-sha256.txt");
     with(&[], "empty");
     with(

@@ -260,8 +260,28 @@ fn what_cannot_be_repeated_is_not_archived() {
     fs::write(&times, told).unwrap();
     let odd = root.join("data/e/50%.csv");
     fs::write(&odd, "").unwrap();
-    archive(&["data/e"], "must be UTF-8 without");
+    archive(&["data/e"], "must be one on every system");
     fs::remove_file(&odd).unwrap();
+    let other = root.join("data/e/Cells.csv");
+    if !other.exists() {
+        fs::write(&other, "").unwrap();
+        archive(&["data/e"], "cannot be unpacked side by side");
+        fs::remove_file(&other).unwrap();
+    }
+    let mark = root.join("data/e/UNFINISHED");
+    fs::write(&mark, "").unwrap();
+    archive(
+        &["data/e"],
+        "data/e: a run is writing here, or was stopped before its end; run it again",
+    );
+    fs::remove_file(&mark).unwrap();
+    for inside in ["data/e", "plots/e", "data/e/tables/e.tar.gz", "plots/e/new"] {
+        validate(root)
+            .args(["archive", "data/e", "--out", inside])
+            .assert()
+            .code(2)
+            .stderr(contains("in the folder of the run itself"));
+    }
     let long = root.join("data/e").join("x".repeat(101));
     fs::write(&long, "").unwrap();
     archive(&["data/e"], "its path is too long");

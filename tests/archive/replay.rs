@@ -11,10 +11,16 @@ fn replay_gives_the_same_data() {
     let data = unpack(&file);
     let data = data
         .keys()
-        .filter(|path| path.starts_with("e-e-quick/data/data/") && !holds_times(path));
+        .filter(|path| {
+            ["data/", "plots/"]
+                .iter()
+                .any(|part| path.starts_with(&format!("e-e-quick/data/{part}")))
+        })
+        .filter(|path| !holds_times(path));
+    // And CLAIMS.md, and two experiments with their defaults written out.
     let told = format!(
-        "replayed: all {} files of data equal to the byte; times are only shown\n",
-        data.count()
+        "replayed: all {} files of data, figures and claims equal to the byte; times are only shown\n",
+        data.count() + 3
     );
     for threads in ["1", "2"] {
         validate(folder.path())
@@ -135,6 +141,34 @@ fn replay_finds_forged_data() {
     verify(&file, &["--replay"]).code(0).stderr(contains(
         "note: e: made by revision 0123456789ab of the program, repeated by",
     ));
+
+    // What it shows and tells of the data, though the data are as they were.
+    for (path, old, new) in [
+        ("plots/e/slopes.svg", "<circle", "<square"),
+        ("CLAIMS.md", "| yes |", "| no |"),
+        ("resolved/e.toml", "seed = 5", "seed = 6"),
+    ] {
+        let mut forged = files.clone();
+        change(&mut forged, &format!("data/{path}"), |text| {
+            text.replacen(old, new, 1)
+        });
+        let told = format!("\n{path}: differs, first in line ");
+        let assert = replay(forged).code(1);
+        remove_kept(&assert.stdout(contains(told).and(contains("replayed: 1 of "))));
+    }
+    let mut forged = files.clone();
+    let picture = forged.get_mut("e-e-quick/data/plots/e/slopes.png").unwrap();
+    *picture.last_mut().unwrap() ^= 1;
+    let assert = replay(forged)
+        .code(1)
+        .stdout(contains("plots/e/slopes.png: differs, first in line "));
+    remove_kept(&assert);
+    let mut forged = files.clone();
+    forged.remove("e-e-quick/data/CLAIMS.md");
+    let assert = replay(forged)
+        .code(1)
+        .stdout(contains("CLAIMS.md: written by the repeated run only\n"));
+    remove_kept(&assert);
     // Another mesh is refused, before anything is counted.
     fs::write(folder.path().join("m.obj"), MESH.replace("0 0 1", "0 0 2")).unwrap();
     verify(&file, &["--replay"]).code(2).stderr(

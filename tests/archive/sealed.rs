@@ -28,12 +28,13 @@ fn payload(files: &Files) -> impl Iterator<Item = (&str, &Vec<u8>)> {
     below.filter_map(move |(path, bytes)| Some((path.strip_prefix(&prefix)?, bytes)))
 }
 
-/// Let the list of what is reproduced fit the data.
+/// Let the list of what is reproduced fit the runs' files.
 pub fn list(files: &mut Files) {
     let path = format!("{NAME}data/replay.json");
     let mut reproduced: Value = serde_json::from_slice(&files[&path]).unwrap();
     reproduced["sha256"] = payload(files)
-        .filter(|(path, _)| path.starts_with("data/") && !path.contains("/tim"))
+        .filter(|(path, _)| path.starts_with("data/") || path.starts_with("plots/"))
+        .filter(|(path, _)| !path.contains("/tim") && !path.ends_with("/report.html"))
         .map(|(path, bytes)| (path.to_string(), Value::from(digits(bytes))))
         .collect::<serde_json::Map<_, _>>()
         .into();
@@ -146,7 +147,7 @@ fn the_list_of_what_is_reproduced_must_be_that_of_the_data() {
         (
             "e/bins.csv",
             "e/bin.csv",
-            "\"data/e/bin.csv\" is no file of data",
+            "\"data/e/bin.csv\" is no file of a run",
         ),
         (
             "\"data/e/bins.csv\": \"",

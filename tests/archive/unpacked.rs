@@ -24,7 +24,9 @@ fn an_unpacked_folder_is_verified() {
     let before = files_below(&root);
     verify(&root, &["--replay", "--quiet"])
         .code(0)
-        .stdout(contains("files of data equal to the byte"));
+        .stdout(contains(
+            "files of data, figures and claims equal to the byte",
+        ));
     assert_eq!(files_below(&root), before);
 
     let bins = root.join("data/data/e/bins.csv");

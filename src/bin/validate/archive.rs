@@ -11,6 +11,7 @@ use sahlab::archive::{self, RunFolders, TOLERANCE, Verified};
 use sahlab::files::Scratch;
 use sahlab::scene::Scene;
 use sahlab::study::plan::Overrides;
+use sahlab::study::store::hold;
 use sahlab::study::{self, Plan};
 
 use crate::args::Common;
@@ -20,8 +21,10 @@ use crate::run;
 /// `validate archive`. With `--out` a file, if it ends in `.tar.gz`, or the folder that gets `archives/NAME.tar.gz`.
 pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
     let file = common.out.as_deref().filter(|out| is_archive_name(out));
+    let held = folders.iter().map(|folder| hold(folder));
+    let _held: Vec<_> = held.collect::<Result<_, _>>()?;
+    let packed = gather(folders, None)?;
     if common.dry_run {
-        let packed = gather(folders, None)?;
         let lines = packed.files().map(|(path, size)| {
             let name = packed.name();
             format!("{size:>12}  {name}/{path}\n")
@@ -29,14 +32,34 @@ pub fn pack(folders: &[PathBuf], common: &Common) -> Result<bool> {
         print(&lines.collect::<String>())?;
         return Ok(true);
     }
-    let packed = gather(folders, None)?;
     let file = file.map_or_else(|| place_below(&packed, common.root()), Path::to_path_buf);
+    check_apart(&file, folders)?;
     if !common.force {
         check_replaced(&file, folders)?;
     }
     packed.write(&file)?;
     print(&format!("{}\n", file.display()))?;
     Ok(true)
+}
+
+/// An archive is not written among the files that it holds, or it would hold itself the next time.
+fn check_apart(file: &Path, folders: &[PathBuf]) -> Result<()> {
+    let whole = std::path::absolute(file)?;
+    // The folder it goes into may have to be made in one that is there.
+    let mut above = whole.ancestors().skip(1);
+    let folder = above.find_map(|folder| folder.canonicalize().ok());
+    let is_in = |own: PathBuf| Some(folder.as_ref()?.starts_with(own.canonicalize().ok()?));
+    for data in folders {
+        for own in [data.clone(), run::plots_of(data)?] {
+            if is_in(own) == Some(true) {
+                bail!(
+                    "{}: in the folder of the run itself; --out FILE.tar.gz names another place",
+                    file.display()
+                );
+            }
+        }
+    }
+    Ok(())
 }
 
 /// An archive may replace one of the same runs; anything else that lies in its place stays.
@@ -167,14 +190,16 @@ fn repeat(file: &Path, verified: &Verified, common: &Common) -> Result<bool> {
     }
     text += &match (others, within) {
         (0, 0) => {
-            format!("replayed: all {all} files of data equal to the byte; times are only shown\n")
+            format!(
+                "replayed: all {all} files of data, figures and claims equal to the byte; times are only shown\n"
+            )
         }
         (0, _) => format!(
-            "replayed: all {all} files of data equal, {equal} to the byte, {within} within {TOLERANCE:e} (relative, counts and words \
-             exactly); times are only shown\n"
+            "replayed: all {all} files of data, figures and claims equal, {equal} to the byte, {within} within {TOLERANCE:e} (relative, \
+             counts and words exactly); times are only shown\n"
         ),
         _ => format!(
-            "replayed: {others} of {} files of data not equal; the repeated runs are in {}\n",
+            "replayed: {others} of {} files of data, figures and claims not equal; the repeated runs are in {}\n",
             all + others,
             root.display()
         ),
@@ -201,7 +226,8 @@ fn load(file: &Path, name: &str, text: &str, common: &Common) -> Result<(Plan, V
     };
     if revision != REVISION && !common.quiet {
         note(&format!(
-            "{name}: made by revision {revision} of the program, repeated by revision {REVISION}"
+            "{name}: made by revision {revision} of the program, repeated by revision {REVISION}; claims and resolved experiments \
+             are not compared"
         ));
     }
     let scenes = run::load_scenes(&mut plan, Some(Path::new(&place)))?;

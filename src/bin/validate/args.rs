@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::{Result, bail};
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use clap_complete::Shell;
-use sahlab::study::share::Share;
+use sahlab::study::share::{Share, plain_number};
 
 use crate::examples;
 
@@ -119,7 +119,8 @@ pub enum Command {
         /// Experiment files. Those that `validate list experiments` names are known without their files too.
         #[arg(required = true, value_name = "EXPERIMENT.toml")]
         experiments: Vec<PathBuf>,
-        /// Only share I of N, into shards/NAME/I-of-N, for `validate merge`; `auto`: as the task of a Slurm job array says.
+        /// Only share I of N, into shards/NAME/I-of-N, for `validate merge`. As a task of a Slurm job array: `auto/N` for the share
+        /// with the task's number, `auto` where the array is whole, of tasks 1 to N.
         #[arg(long, value_name = "I/N", value_parser = shard)]
         shard: Option<Share>,
     },
@@ -133,7 +134,7 @@ pub enum Command {
     /// Print the script that runs an experiment in shards on many machines and puts them together.
     ///
     /// It calls `validate` from the PATH, or what the variable VALIDATE names, in the folder where it is submitted, with the
-    /// options --quick, --seed, --lines, --error and --out that are given here.
+    /// options --quick, --seed, --lines, --error, --threads and --out that are given here.
     #[command(after_help = examples::PLAN)]
     Plan {
         /// The experiment file.
@@ -344,10 +345,15 @@ fn count(text: &str) -> Result<u64, String> {
 
 /// A share of a run: 2/6, or what Slurm says.
 fn shard(text: &str) -> Result<Share, String> {
-    if text == "auto" {
-        return Share::of_slurm(|name| std::env::var(name).ok());
+    let variable = |name: &str| std::env::var(name).ok();
+    match text.split_once('/') {
+        None if text == "auto" => Share::of_slurm(None, variable),
+        Some(("auto", of)) => {
+            let of = plain_number(of).ok_or("expected auto/N, e.g. auto/6")?;
+            Share::of_slurm(Some(of), variable)
+        }
+        _ => text.parse(),
     }
-    text.parse()
 }
 
 /// A share: 0.1% or 0.001.

@@ -6,31 +6,35 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use anyhow::{Context, Result, bail};
-use sahlab::files::write_atomic;
+use sahlab::files::{PART, is_unfinished, write_atomic};
 use sahlab::report::REPORT;
 use sahlab::study::plan::is_folder_name;
+use sahlab::study::store::{check_finished, hold};
 
 use crate::output::{note, print};
 use crate::splice::{Spliced, splice};
 
 /// Publish the named runs under `root` and splice the pages.
 pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
+    let mut held = Vec::new();
     for name in names {
         let data = root.join("data").join(name);
         check(name, &data)?;
+        held.push(hold(&data)?);
     }
     for name in names {
         for part in ["data", "plots"] {
             let from = root.join(part).join(name);
             let to = root.join(part).join("published").join(name);
-            // What an earlier publication left may not belong to this run; a benchmark belongs to no other.
             if name != BENCH {
-                remove(&to)?;
+                replace(&from, &to)?;
+                continue;
             }
+            // A benchmark belongs to no other.
             if from.is_dir() {
                 copy(&from, &to)?;
             }
-            if name == BENCH && to.is_dir() {
+            if to.is_dir() {
                 drop_gone(root, &to)?;
             }
         }
@@ -126,6 +130,31 @@ fn find_pages(root: &Path, folder: &Path, pages: &mut Vec<PathBuf>) -> Result<()
     Ok(())
 }
 
+/// Publish a folder in place of what an earlier publication left, which may not belong to this run: that goes when the new one is
+/// there as a whole.
+fn replace(from: &Path, to: &Path) -> Result<()> {
+    let mut name = std::ffi::OsString::from(".");
+    name.push(to.file_name().unwrap_or_default());
+    name.push(PART);
+    let new = to.with_file_name(name);
+    remove(&new)?;
+    let copied = if from.is_dir() {
+        copy(from, &new)
+    } else {
+        Ok(())
+    };
+    if copied.is_err() {
+        // The first failure is the one to tell.
+        let _ = remove(&new);
+    }
+    copied?;
+    remove(to)?;
+    if new.is_dir() {
+        fs::rename(&new, to).with_context(|| format!("{}: cannot replace", to.display()))?;
+    }
+    Ok(())
+}
+
 /// Remove a folder, if there is one.
 fn remove(folder: &Path) -> Result<()> {
     match fs::remove_dir_all(folder) {
@@ -174,6 +203,7 @@ fn check(name: &str, data: &Path) -> Result<()> {
             data.display()
         );
     }
+    check_finished(data)?;
     if sahlab::report::read_run(data)?.summary.quick {
         bail!(
             "{}: made with --quick; run it without to publish it",
@@ -185,7 +215,9 @@ fn check(name: &str, data: &Path) -> Result<()> {
 
 /// What is not published: what is only there to resume, and what is too large to keep and quickly made again.
 fn stays_behind(name: &str) -> bool {
-    ["cells", "nodes.csv", "pictures", REPORT].contains(&name) || name.starts_with("render-")
+    ["cells", "nodes.csv", "pictures", REPORT].contains(&name)
+        || name.starts_with("render-")
+        || is_unfinished(name)
 }
 
 /// Copy a folder, without what [`stays_behind`].

@@ -9,7 +9,7 @@ use sahlab::files::{make_folder, remove_unfinished};
 use sahlab::report::{self, Run, screen};
 use sahlab::scene::Scene;
 use sahlab::study::pieces::{Extent, Piece};
-use sahlab::study::store::{Claim, Store};
+use sahlab::study::store::{Claim, Store, check_finished};
 use sahlab::study::{self, Plan};
 
 use crate::args::Common;
@@ -99,7 +99,7 @@ pub fn measure(plan: &Plan, scenes: &[Scene], store: &Store, common: &Common) ->
     Ok(done?)
 }
 
-/// Draw and tell what a finished run holds. Gives the run as read from its files.
+/// Draw and tell what a run holds whose data are there, which finishes it. Gives the run as read from its files.
 pub fn report(plan: &Plan, common: &Common, show: fn(&Run) -> String) -> Result<Run> {
     let [data, plots] = folders(plan, common);
 
@@ -108,6 +108,7 @@ pub fn report(plan: &Plan, common: &Common, show: fn(&Run) -> String) -> Result<
     report::write_tables(&run, &data.join("tables"))?;
     report::write_plots(&run, &plots)?;
     let page = report::write_report(&run, &plots)?;
+    Store::open(&data).finish()?;
     if !common.json {
         let files = format!(
             "data   {}\nplots  {}\nreport {}\n",
@@ -172,6 +173,7 @@ pub fn check_names<'a>(plans: impl Iterator<Item = &'a Plan>) -> Result<()> {
 
 /// A finished run, read from its folder of data.
 pub fn read(folder: &Path) -> Result<Run> {
+    check_finished(folder)?;
     report::read_run(folder).map_err(|error| {
         let remedy = if folder.join("summary.json").is_file() {
             ""

@@ -61,7 +61,7 @@ pub fn merge(folders: &[PathBuf], common: &Common) -> Result<bool> {
     let name = place.display().to_string();
     let mut plan = Plan::parse(&shards.experiment, &name, "", Overrides::default())?;
     let scenes = run::load_scenes(&mut plan, Some(&place))?;
-    shards.check_complete(&plan, &scenes)?;
+    shards.check(&plan, &scenes)?;
     if common.dry_run {
         print(&format!(
             "would put {} shards together into {}\n",
@@ -115,9 +115,17 @@ pub fn script(
         place = format!(" --out {out}");
         options += &place;
     }
+    let threads = common.threads.unwrap_or(match engine {
+        Engine::Slurm => 2,
+        // One a core: as many shards at a time as there are cores.
+        Engine::Snakemake => 1,
+    });
+    let given = common
+        .threads
+        .map_or_else(String::new, |n| format!(" --threads {n}"));
     let head = format!(
         "# {shards} shards of {}, and the job that puts them together. Made by\n\
-         #   validate plan {} --shards {shards} --format {}{options}\n\
+         #   validate plan {} --shards {shards} --format {}{options}{given}\n\
          # Run it where the experiment's path leads to the experiment, with `validate` on the PATH or named by VALIDATE.\n",
         experiment.display(),
         experiment.display(),
@@ -126,17 +134,24 @@ pub fn script(
             Engine::Snakemake => "snakemake",
         }
     );
+    // One that comes with the program may have no file.
+    let input = match experiment.exists() {
+        true => format!("\n    input:\n        \"{}\",", experiment.display()),
+        false => String::new(),
+    };
     let text = match engine {
         Engine::Slurm => SLURM,
         Engine::Snakemake => SNAKEMAKE,
     };
     let text = text
+        .replace("{INPUT}", &input)
         .replace("{EXPERIMENT}", &experiment.display().to_string())
         .replace("{OPTIONS}", &options)
         .replace("{PLACE}", &place)
         .replace("{FOLDER}", &folder)
         .replace("{DATA}", &data)
         .replace("{NAME}", name)
+        .replace("{THREADS}", &threads.to_string())
         .replace("{N}", &shards.to_string());
     Ok(head + &text)
 }
@@ -144,9 +159,9 @@ pub fn script(
 /// Exit code 1 of `merge` says that an expectation was missed: the run is finished all the same.
 const SLURM: &str = r#"set -eu
 validate=${VALIDATE:-validate}
-threads=${THREADS:-2}
+threads=${THREADS:-{THREADS}}
 array=$(sbatch --parsable --job-name={NAME} --array=1-{N} --cpus-per-task="$threads" --output={NAME}-%a.log \
-  --wrap "$validate run {EXPERIMENT} --shard auto --threads $threads{OPTIONS}")
+  --wrap "$validate run {EXPERIMENT} --shard auto/{N} --threads $threads{OPTIONS}")
 echo "shards: job array $array"
 sbatch --wait --job-name={NAME}-merge --dependency="afterok:${array%%;*}" --kill-on-invalid-dep=yes --output={NAME}-merge.log \
   --wrap "$validate merge {FOLDER}/*-of-{N}{PLACE} || test \$? -eq 1"
@@ -164,10 +179,10 @@ rule all:
         "{DATA}/summary.json",
 
 
-rule shard:
+rule shard:{INPUT}
     output:
         "{FOLDER}/{i}-of-{N}/shard.json",
-    threads: 1
+    threads: {THREADS}
     shell:
         "{VALIDATE} run {EXPERIMENT} --shard {wildcards.i}/{N} --threads {threads}{OPTIONS}"
 

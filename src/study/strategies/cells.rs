@@ -18,7 +18,7 @@ use crate::study::{Plan, RunError, Watcher, guess, timing};
 use crate::tracer::{RayCounts, RayKind, RaySet, count, trace};
 
 use super::asked::Strategies;
-use super::pictures;
+use super::pictures::{self, Pictures};
 
 /// One tree over a scene with a look.
 pub struct TreeCell<'a> {
@@ -62,13 +62,25 @@ pub fn identity(asked: &Strategies, cells: &[TreeCell]) -> String {
 
 /// The finished trees of a scene, if all of them and their pictures are there.
 pub fn finished(asked: &Strategies, store: &Store, cells: &[TreeCell]) -> Option<Vec<Studied>> {
-    let scene = cells.first()?.plan.scene;
-    let one = |cell: &TreeCell| {
-        let CellPlan { id, rules, .. } = &cell.plan;
-        let drawn = pictures::are_there(store, asked, scene, rules);
-        store.finished(id).filter(|_| drawn)
-    };
+    let one = |cell: &TreeCell| kept(asked, store, &cell.plan);
     cells.iter().map(one).collect()
+}
+
+/// A finished tree on disk: the pictures lie beside it.
+#[derive(Serialize, Deserialize)]
+struct Kept {
+    studied: Studied,
+    pictures: Pictures,
+}
+
+/// A finished tree: taken only if its pictures are those written with it.
+fn kept(asked: &Strategies, store: &Store, cell: &CellPlan) -> Option<Studied> {
+    let CellPlan {
+        id, rules, scene, ..
+    } = cell;
+    let Kept { studied, pictures } = store.finished(id)?;
+    let drawn = pictures.are_there(store, asked, scene, rules);
+    drawn.then_some(studied)
 }
 
 /// What the trees of a scene amount to.
@@ -127,7 +139,7 @@ pub fn measure(
     };
     let (tree, _) = plant(scene, &reference).map_err(bug(scene.name.clone()))?;
     let traced = trace(scene, look, &tree, asked.pixels);
-    pictures::write_render(store, scene, &traced.picture)?;
+    let picture = Pictures::of_scene(store, scene, &traced.picture)?;
     let probes = Probes::new(scene, &traced.rays, asked.checked, plan.seed);
 
     let mut studied = Vec::new();
@@ -137,17 +149,18 @@ pub fn measure(
         let place = format!("{} {} {}", scene.name, rules.strategy, rules.stop);
         watcher.begin(&place);
         let (tree, _) = plant(scene, rules).map_err(bug(place.clone()))?;
-        let drawn = pictures::are_there(store, asked, scene, rules);
-        let found = if let Some(found) = store.finished(id).filter(|_| drawn) {
+        let found = if let Some(found) = kept(asked, store, &cell.plan) {
             found
         } else {
-            let (found, counts) =
+            let (studied, counts) =
                 count_tree(cell, &tree, &traced.rays, &probes).map_err(bug(place))?;
+            let mut pictures = picture.clone();
             if pictures::is_shown(asked, rules) {
-                pictures::write_cost(store, scene, rules, &counts.corners)?;
+                pictures = pictures.with_costs(store, scene, rules, &counts.corners)?;
             }
-            store.save(id, &found)?;
-            found
+            let new = Kept { studied, pictures };
+            store.save(id, &new)?;
+            new.studied
         };
         studied.push(found);
         trees.push(tree);
