@@ -47,7 +47,7 @@ fn run_plan(folder: &Path, arguments: &[&str], file: &str, engine: &mut Command)
 
 /// Data and figures are those of a run by one machine.
 fn is_as_by_one(shared: &Path, what: &str) {
-    let one = folder(CELLS);
+    let one = folder(&fs::read_to_string(shared.join("e.toml")).unwrap());
     validate(one.path()).arg("--quiet").assert().code(0);
     let wanted = contents(one.path()).into_iter();
     let wanted: Vec<_> = wanted
@@ -88,6 +88,11 @@ fn two_shards_through_snakemake() {
     run(&[]);
     is_as_by_one(shared, "snakemake");
     assert!(run(&[]).contains("Nothing to be done"));
+    // Another question is another run.
+    let other = CELLS.replace("seed = 5", "seed = 6");
+    fs::write(shared.join("e.toml"), other).unwrap();
+    run(&[]);
+    is_as_by_one(shared, "snakemake, of an edited experiment");
 }
 
 /// Where a Slurm answers: that of the system, or the one of `tests/engines/slurm-node.sh`.
@@ -116,4 +121,16 @@ fn an_array_of_six_through_slurm() {
     let merged = fs::read_to_string(shared.join("e-merge.log")).unwrap();
     assert!(merged.contains("held"), "{merged}");
     is_as_by_one(shared, "slurm");
+    // One task again: the same share.
+    let script = fs::read_to_string(shared.join("submit.sh")).unwrap();
+    let again = script.replace("--array=1-6", "--wait --array=3");
+    assert_ne!(again, script);
+    fs::write(shared.join("again.sh"), again).unwrap();
+    let mut engine = Command::new("sh");
+    engine.arg("again.sh").current_dir(shared);
+    engine.env("VALIDATE", assert_cmd::cargo::cargo_bin!("validate"));
+    assert!(engine.status().unwrap().success());
+    let log = fs::read_to_string(shared.join("e-3.log")).unwrap();
+    assert!(log.contains("e, share 3/6: "), "{log}");
+    is_as_by_one(shared, "slurm, one task again");
 }

@@ -251,7 +251,8 @@ pub enum Command {
         #[arg(value_name = "FILE.tar.gz")]
         file: PathBuf,
         /// Repeat every run from its experiment's text alone, in a temporary folder or an empty --out DIR, and compare all
-        /// data: counts and words exactly, other figures within 1e-9 of each other (relative). Times are only shown.
+        /// data, figures and claims: counts and words exactly, other numbers within 1e-9 of each other (relative). Times are
+        /// only shown.
         #[arg(long)]
         replay: bool,
     },
