@@ -113,7 +113,7 @@ fn gaps_conflicts_and_strangers_are_refused_in_words() {
     fs::rename(shared.join("kept"), shared.join("shards/e")).unwrap();
     refused(
         &["1-of-3", "2-of-3", "3-of-3"],
-        "shards/e/1-of-3: not of the same run as shards/e/2-of-3: in their experiment.toml, `options = \"--seed 6\"` (line ",
+        "shards/e/1-of-3: not of the same run as shards/e/2-of-3: in their experiment.toml, `seed = 6` (line ",
     );
     fs::remove_dir_all(shared.join("shards/e/2-of-3")).unwrap();
     shard(shared, "2/3", &[]);
