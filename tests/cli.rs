@@ -251,8 +251,14 @@ fn runs_are_published_one_by_one() {
     };
     let readme = || fs::read_to_string(root.join("README.md")).unwrap();
     let text = block("e", "old") + &block("f", "old");
-    fs::write(root.join("README.md"), &text).unwrap();
     let publish = |names: &[&str]| validate(root).arg("publish").args(names).assert();
+
+    // Not the project's folder.
+    publish(&["e"])
+        .code(2)
+        .stderr(contains("README.md: cannot read"));
+    assert!(!root.join("data/published").exists());
+    fs::write(root.join("README.md"), &text).unwrap();
 
     // One that is not finished: none is copied.
     fs::create_dir_all(root.join("data/unfinished")).unwrap();

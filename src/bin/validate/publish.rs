@@ -19,9 +19,11 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
     let mut held = Vec::new();
     for name in names {
         let data = root.join("data").join(name);
-        check(name, &data)?;
         held.push(hold(&data)?);
+        check(name, &data)?;
     }
+    // Before anything is copied: this may not be the project's folder.
+    let texts = read_pages(root)?;
     for name in names {
         for part in ["data", "plots"] {
             let from = root.join(part).join(name);
@@ -39,7 +41,7 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
             }
         }
     }
-    let pages = spliced(root)?;
+    let pages = spliced(root, texts)?;
     for (page, now) in &pages {
         if !now.stale.is_empty() {
             write_atomic(&root.join(page), now.text.as_bytes())?;
@@ -64,7 +66,7 @@ pub fn publish(root: &Path, names: &[String], speak: bool) -> Result<bool> {
 /// Name every mark of a page between which something else stands than in the published files, and change nothing. Says
 /// whether there is none.
 pub fn check_pages(root: &Path) -> Result<bool> {
-    let pages = spliced(root)?;
+    let pages = spliced(root, read_pages(root)?)?;
     let mut wrong = String::new();
     for (page, now) in &pages {
         for (marks, what) in [
@@ -89,19 +91,26 @@ fn counted(pages: &[(PathBuf, Spliced)]) -> String {
     format!("all quotations ({marks} in README.md and docs/)")
 }
 
-/// README.md and every page below docs, relative to `root`, with what belongs between their marks.
-fn spliced(root: &Path) -> Result<Vec<(PathBuf, Spliced)>> {
+/// README.md and every page below docs, relative to `root`, with their texts.
+fn read_pages(root: &Path) -> Result<Vec<(PathBuf, String)>> {
     let mut pages = vec![PathBuf::from("README.md")];
     find_pages(root, Path::new("docs"), &mut pages)?;
-    let splice = |page: PathBuf| {
-        let name = page.display().to_string();
+    let text = |page: PathBuf| {
         let text = fs::read_to_string(root.join(&page)).with_context(|| {
             format!(
                 "{}: cannot read; expected the project's own folder, here or in --out",
                 root.join(&page).display()
             )
         })?;
-        let spliced = splice(&text, root).context(name)?;
+        Ok((page, text))
+    };
+    pages.into_iter().map(text).collect()
+}
+
+/// Pages with what belongs between their marks.
+fn spliced(root: &Path, pages: Vec<(PathBuf, String)>) -> Result<Vec<(PathBuf, Spliced)>> {
+    let splice = |(page, text): (PathBuf, String)| {
+        let spliced = splice(&text, root).with_context(|| page.display().to_string())?;
         Ok((page, spliced))
     };
     pages.into_iter().map(splice).collect()
