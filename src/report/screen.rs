@@ -146,14 +146,49 @@ fn gains(percent: f64) -> bool {
 /// Per cent of cost below which trees count as equal.
 const LEAST_GAIN: f64 = 0.005;
 
+/// Several runs on one screen: what each asked, and which of its expectations held; of those that did not, the figures.
+pub fn together(runs: &[Run]) -> String {
+    const MARGIN: usize = 27;
+    let all: Vec<_> = runs.iter().flat_map(Run::verdicts).collect();
+    let held = all.iter().filter(|v| v.held).count();
+    let parts = counted(runs.len() as u64, "experiment");
+    let mut text = format!(
+        "\n{parts}: {held} of {} expectations held, {} missed\n\n",
+        all.len(),
+        all.len() - held
+    );
+    for run in runs {
+        text += &beside(MARGIN, &run.summary.experiment, &run.summary.question);
+        let (held, missed): (Vec<_>, Vec<_>) = run.verdicts().partition(|v| v.held);
+        let names: Vec<_> = held.iter().map(|v| &*v.name).collect();
+        if !names.is_empty() {
+            text += &beside(MARGIN, "", &format!("held: {}", names.join(", ")));
+        }
+        for v in missed {
+            text += &beside(MARGIN, "", &format!("MISSED: {}: {}", v.name, v.message));
+        }
+    }
+    text
+}
+
+/// A name, and from column `margin` on a text, folded; a name that is too long for that has a line of its own.
+fn beside(margin: usize, name: &str, text: &str) -> String {
+    let indent = format!("\n{:margin$}", "");
+    let text = fold(text, WIDTH - margin).replace('\n', &indent);
+    if name.len() < margin {
+        format!("{name:margin$}{text}\n")
+    } else {
+        format!("{name}{indent}{text}\n")
+    }
+}
+
 /// A verdict and its figures each, folded beside their name.
 pub(in crate::report) fn verdicts(run: &Run) -> String {
     const MARGIN: usize = 22;
     let mut text = String::from("\n");
     for v in run.verdicts() {
         let mark = if v.held { "held" } else { "MISSED" };
-        let message = fold(&v.message, WIDTH - MARGIN).replace('\n', &format!("\n{:MARGIN$}", ""));
-        let _ = writeln!(text, "{mark:6}  {:14}{message}", v.name);
+        text += &beside(MARGIN, &format!("{mark:6}  {}", v.name), &v.message);
     }
     if run.summary.quick {
         text += "quick form: fewer lines, smaller scenes; no figure of it is to be published\n";
@@ -207,6 +242,16 @@ mod tests {
             ..fixture::cell("scene", name, 601)
         };
         names.iter().zip(costs).map(tree).collect()
+    }
+
+    #[test]
+    fn texts_stand_beside_names() {
+        assert_eq!(beside(6, "name", "text"), "name  text\n");
+        assert_eq!(beside(6, "longer", "text"), "longer\n      text\n");
+        let words = "words ".repeat(20);
+        let folded = beside(6, "", &words);
+        assert!(folded.lines().count() > 1);
+        assert!(folded.lines().all(|line| line.starts_with("      words")));
     }
 
     #[test]

@@ -312,13 +312,44 @@ fn what_cannot_be_repeated_is_not_archived() {
 #[test]
 fn the_default_study_ends_with_its_archive() {
     let folder = tempdir().unwrap();
-    validate(folder.path())
+    let study = validate(folder.path())
         .args(["--quick", "--quiet", "--lines", "2048"])
         .assert()
         .code(predicate::in_iter([0, 1]))
         .stdout(predicate::str::ends_with(
             "archive ./archives/validate-quick.tar.gz\n",
         ));
+    // Before that, all of it once more on a screen: each part and each expectation, as in the pages.
+    let output = String::from_utf8_lossy(&study.get_output().stdout).into_owned();
+    let (_, short) = output.split_once("\n7 experiments: ").unwrap();
+    assert!(short.lines().count() < 50, "{short}");
+    let (mut held, mut missed) = (0, 0);
+    for part in fs::read_dir(folder.path().join("data")).unwrap() {
+        let path = part.unwrap().path();
+        let name = path.file_name().unwrap().to_str().unwrap();
+        let (_, own) = short.split_once(&format!("\n{name} ")).unwrap();
+        let text = fs::read_to_string(path.join("tables/verdicts.csv")).unwrap();
+        for row in csv::Reader::from_reader(text.as_bytes()).records() {
+            let row = row.unwrap();
+            let told = match &row[1] {
+                "held" => row[0].to_string(),
+                _ => format!("MISSED: {}: ", &row[0]),
+            };
+            assert!(own.contains(&told), "{told}: {short}");
+            *(if &row[1] == "held" {
+                &mut held
+            } else {
+                &mut missed
+            }) += 1;
+        }
+    }
+    assert!(
+        held > 20
+            && short.starts_with(&format!(
+                "{held} of {} expectations held, {missed} missed\n",
+                held + missed
+            ))
+    );
     verify(&folder.path().join("archives/validate-quick.tar.gz"), &[]).code(0);
     let output = validate(folder.path())
         .args(["--quick", "--lines", "2048", "--json", "--out", "j"])

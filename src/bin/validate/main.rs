@@ -321,6 +321,8 @@ fn run_loaded(
         .collect::<Result<Vec<_>>>()?;
     if common.json {
         run::print_json(&runs)?;
+    } else if runs.len() > 1 {
+        print(&screen::together(&runs))?;
     }
     Ok(runs.iter().all(Run::held))
 }
